@@ -1,8 +1,13 @@
 #include "actuators/dc_motor.h"
 
 #include <algorithm>
+#include <array>
 
 namespace gaitlab::actuators {
+
+namespace {
+constexpr std::array kEfficiencyModels{"paper", "directional"};
+}
 
 const char* const DcMotorActuator::kManual = R"(A DC motor behind a gear; inductance neglected.
 
@@ -30,7 +35,13 @@ void DcMotorActuator::Settings::fields(Fields& f) {
   f.per_joint("Ks", Ks, {"V s/rad", 0, 1e3, "Speed constant of the motor (back-EMF)."});
   f.per_joint("gear", gear, {"", 1e-3, 1e6, "Reduction: motor turns per joint turn (n)."});
   f.per_joint("efficiency", efficiency, {"", 0, 1, "Efficiency of the gear (eta)."});
-  EfficiencyKeys::fields(f);
+  f.choice("efficiency_model", efficiency_model, kEfficiencyModels,
+           "`paper`: the torque is always multiplied by eta, as in eq. 2; `directional`: by eta if the motor drives, by 1/eta "
+           "if it is back-driven.");
+  f.number(
+      "turn_speed", turn_speed,
+      {"rad/s", 1e-6, 1e3,
+       "Joint speed at which the factor of `directional` has changed from 1 to eta or 1/eta, under an explicit integrator."});
   f.limit("u_max", u_max, {"V", 0, 1e6, "Supply voltage of the driver: commands are limited to +- this value."});
   f.limit("i_max", i_max, {"A", 0, 1e6, "Absolute rating: the current is limited to +- this value."});
   f.per_joint("rotor_inertia", rotor_inertia, {"kg m^2", 0, 1, "Inertia of the rotor (J); acts on the joint as n^2 J."});
@@ -45,7 +56,10 @@ void DcMotorActuator::Settings::fields(Fields& f) {
 DcMotorActuator::DcMotorActuator(const RobotInfo& robot, const std::vector<const Settings*>& lanes) {
   for (std::size_t j = 0; j < robot.joints.size(); ++j) {
     for (const Settings* s : lanes) {
-      add({s->R[j], s->Kt[j], s->Ks[j], s->gear[j], s->efficiency[j], s->u_max[j], s->i_max[j], s->reversal_speed()},
+      const bool directional = s->efficiency_model == EfficiencyModel::directional;
+      const double eta = s->efficiency[j];
+      add({s->R[j], s->Kt[j], s->Ks[j], s->gear[j], directional ? 1 : eta, s->u_max[j], s->i_max[j], directional ? eta : 1,
+           directional ? s->turn_speed : 0},
           s->gear[j] * s->gear[j] * s->rotor_inertia[j], s->of(j), s->friction_of(j));
     }
   }

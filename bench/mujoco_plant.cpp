@@ -71,7 +71,7 @@ std::string lean(const std::string& mjcf) {
 std::string dc_motors(const PlantSettings& s) {
   const DcMotor* motor = s.actuator == nullptr ? nullptr : s.actuator->dc_motors();
   const std::size_t joints = s.robot->joints.size();
-  if (motor == nullptr || std::any_of(motor, motor + joints, [](const DcMotor& m) { return m.reversal_speed > 0; })) {
+  if (motor == nullptr || std::any_of(motor, motor + joints, [](const DcMotor& m) { return m.load < 1; })) {
     throw RunError("set-up dcmotor of the benchmarks needs actuator dc_motor with efficiency_model: paper");
   }
   std::string out = "<actuator>\n";

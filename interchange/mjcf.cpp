@@ -154,6 +154,10 @@ class Mjcf {
       set(e, "damping", text({joint.passive->damping}));
       set(e, "frictionloss", text({joint.passive->friction}));
     }
+    if (joint.driven() && !limits_.empty() && !(limits_[j].friction == JointFriction())) {
+      set(e, "damping", text({limits_[j].friction.viscous}));
+      set(e, "frictionloss", text({limits_[j].friction.dry}));
+    }
     if (!limits_.empty() && limits_[j].armature > 0) set(e, "armature", text({limits_[j].armature}));
   }
 

@@ -8,6 +8,7 @@
 
 #include "core/dynamics/mobility.h"
 #include "core/errors.h"
+#include "core/laws/dc_motor.h"
 #include "core/plugin/actuator.h"
 #include "core/scenario/built_robot.h"
 #include "core/settings/wording.h"
@@ -132,6 +133,13 @@ Drives drives(const Scenario& s) {
   std::vector<double> torque(joints);
   std::vector<double> slope(joints);
   actuator->effort(command, rest, torque, slope);
+  const DcMotor* const motors = actuator->dc_motors();
+  for (std::size_t j = 0; motors != nullptr && j < joints; ++j) {  // with the gear's loss while the motor drives
+    if (!s.robot->joints[j].driven() || !(motors[j].jumps > 0)) continue;
+    const DcMotor::Effort drives = motors[j].on(1, kSmall, 0);
+    torque[j] = drives.torque;
+    slope[j] = drives.slope;
+  }
   Drives out;
   out.command_unit = actuator->command_unit();
   PidGains gains;

@@ -71,9 +71,11 @@ std::vector<MotorLimits> motor_limits(const Scenario& scenario) {
   std::vector<double> slope(joints);
   actuator->effort(command, rest, torque, slope);
   const In rotors = actuator->reflected_inertia();
+  const std::span<const JointFriction> friction = actuator->friction();
   const std::vector<double> fastest = no_load_speeds(*actuator, command);
   std::vector<MotorLimits> limits(joints);
-  for (std::size_t j = 0; j < joints; ++j) limits[j] = {torque[j], fastest[j], rotors.empty() ? 0 : rotors[j]};
+  for (std::size_t j = 0; j < joints; ++j)
+    limits[j] = {torque[j], fastest[j], rotors.empty() ? 0 : rotors[j], friction.empty() ? JointFriction() : friction[j]};
   return limits;
 }
 

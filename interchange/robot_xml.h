@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/dynamics/body_tree.h"
+#include "core/plugin/actuator.h"
 #include "core/scenario/scenario.h"
 #include "interchange/xml.h"
 
@@ -22,6 +23,7 @@ struct MotorLimits {
   double effort = 0;    ///< N m, torque at rest under the largest command; infinity if not limited
   double speed = 0;     ///< rad/s, no-load speed under the largest command; 0 if there is none
   double armature = 0;  ///< kg m^2, inertia of the rotor
+  JointFriction friction;
 };
 /// Motor limits of each joint; empty without an actuator.
 std::vector<MotorLimits> motor_limits(const Scenario& scenario);

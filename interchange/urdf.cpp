@@ -122,10 +122,10 @@ class Urdf {
     }
     set(limit, "effort", text({std::min(motor.effort, kUnlimited)}));
     set(limit, "velocity", text({motor.speed > 0 ? motor.speed : kUnlimited}));
-    if (joint.driven()) return;
+    if (joint.driven() && motor.friction == JointFriction()) return;
     Xml& dynamics = add(e, "dynamics");
-    set(dynamics, "damping", text({joint.passive->damping}));
-    set(dynamics, "friction", text({joint.passive->friction}));
+    set(dynamics, "damping", text({joint.driven() ? motor.friction.viscous : joint.passive->damping}));
+    set(dynamics, "friction", text({joint.driven() ? motor.friction.dry : joint.passive->friction}));
   }
 
   void write_link(Xml& root, std::size_t b, const std::vector<ContactElement>& contacts) {

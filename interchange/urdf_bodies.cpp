@@ -188,8 +188,8 @@ class BodyWalk {
     };
     check("effort", made.effort, "the torque at rest, N m,");
     check("velocity", made.speed, "the no-load speed, rad/s,");
-    if (dynamics.damping != 0 || dynamics.friction != 0)
-      made_.notes.push_back("damping and friction of joint " + in_quotes(joint.name) + ", which has a motor");
+    made.dry = dynamics.friction;
+    made.viscous = dynamics.damping;
   }
 
   void add_shapes(const Placed& at) {

@@ -11,6 +11,7 @@ namespace gaitlab::interchange {
 struct UrdfHinge {
   HingeType hinge;               ///< parent and child: indices of UrdfBodies::bodies
   double effort = 0, speed = 0;  ///< motor's torque at rest, N m, and no-load speed, rad/s; 0 without a motor
+  double dry = 0, viscous = 0;   ///< friction of a driven joint, N m, N m s/rad
 };
 
 struct UrdfBodies {

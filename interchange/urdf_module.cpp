@@ -63,7 +63,8 @@ std::string body_text(const BodyType& body) {
 
 /// Keys of the motor that may differ from hinge to hinge, and the gain that fits them.
 std::string motor_text(const UrdfHinge& hinge) {
-  return fmt::format("stall_torque: {}, no_load_speed: {}", number_text(hinge.effort), number_text(hinge.speed));
+  return fmt::format("stall_torque: {}, no_load_speed: {}, dry_friction: {}, viscous_friction: {}", number_text(hinge.effort),
+                     number_text(hinge.speed), number_text(hinge.dry), number_text(hinge.viscous));
 }
 std::string gain_text(const UrdfHinge& hinge) {
   const double period = Scenario().control_period;
@@ -127,8 +128,8 @@ ModuleText module_text(const UrdfBodies& parts, const std::string& name, const s
     made.text += "contacts: {all: shapes}\n";
   if (common == nullptr) return made;
   made.text += fmt::format(
-      "actuator: {{type: servo, voltage: {}, {}, efficiency_model: directional, source: {}}}\ncontroller: {{type: pid, {}, Kd: "
-      "0}}\n",
+      "actuator: {{type: servo, voltage: {}, {}, load_friction: 0, rotor_inertia: 0, source: "
+      "{}}}\ncontroller: {{type: pid, {}, Kd: 0}}\n",
       number_text(kVoltage), motor_text(*common),
       yaml_text("chosen: the voltage, because URDF has none; torque and speed are the effort and velocity in " + from),
       gain_text(*common));

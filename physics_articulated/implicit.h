@@ -56,6 +56,7 @@ class Implicit {
         joints_(tree.lo.size()),
         place_(StateLayout::kAngles + 2 * joints_, T(0.0)),
         locks_(joints_),
+        rests_(joints_),
         now_(joints_),
         next_(joints_) {
     passive_.assign(tree.passive.size(), T(0.0));
@@ -155,13 +156,13 @@ class Implicit {
       for (std::size_t l = 0; l < math::kLanes<T>; ++l) torque[j * math::kLanes<T> + l] += math::lane(friction, l);
     }
     motors.begin(command, speeds(x));
-    const auto all = motors.sticks;
-    if (std::ranges::none_of(all, [](const auto& sticks) { return math::any_lane(sticks); })) return;
+    rests_ = motors.sticks;
+    if (std::ranges::none_of(rests_, [](const auto& sticks) { return math::any_lane(sticks); })) return;
     evaluate(x, command);
     for (std::size_t j = 0; j < joints_; ++j) {
       const T held = math::select(motors.sticks[j], locks_.torque[j], motors.law[j]);
       for (std::size_t l = 0; l < math::kLanes<T>; ++l) {
-        if (math::lane(math::select(all[j], T(1.0), T(0.0)), l) > 0) torque[j * math::kLanes<T> + l] = math::lane(held, l);
+        if (math::lane(math::select(rests_[j], T(1.0), T(0.0)), l) > 0) torque[j * math::kLanes<T> + l] = math::lane(held, l);
       }
     }
   }
@@ -501,7 +502,8 @@ class Implicit {
   std::size_t joints_;
   std::vector<T> passive_;  ///< torques of passive hinges, set by evaluate()
   std::vector<T> place_, stop_, stop_slope_, force_, diagonal_, end_;
-  Locks<T> locks_;  ///< joints that stick
+  Locks<T> locks_;                    ///< joints that stick
+  std::vector<math::Mask<T>> rests_;  ///< joints at rest in add_friction()
   Iterate now_, next_;
   T missed_ = 0.0;
   T torque_tolerance_ = kTorqueTolerance;  ///< share of the largest torque of a motor at rest

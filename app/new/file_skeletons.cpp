@@ -41,7 +41,6 @@ actuator:                              # the servo's data sheet
   voltage: 4.8                         # V, at which the sheet states the next two numbers
   stall_torque: 0.31381                # N m: 3.2 kgf cm (1 kgf cm = 0.0980665 N m)
   no_load_speed: 4.553                 # rad/s: 0.23 s/60 degrees (1.0472 rad / 0.23 s)
-  efficiency_model: directional        # gears lose energy in both directions; `paper`, the default, can create energy
   source: "chosen: a hobby servo"      # name of the data sheet; without it, or with "chosen", verdicts call the motor chosen
 controller:
   type: pid

@@ -11,6 +11,9 @@ inline constexpr double kRevPerMin = 0.10471975511965977;  // rad/s per rev/min
 inline constexpr double gain_of_share(double share, double voltage, double no_load_speed, double period) {
   return share * voltage / (no_load_speed * period);
 }
+/// Efficiency of a gear that eats a share of the sum of motor's and load's torque: T_m - T_l = share (T_m + T_l).
+inline constexpr double efficiency_of_load(double share) { return (1 - share) / (1 + share); }
+inline constexpr double load_of_efficiency(double eta) { return (1 - eta) / (1 + eta); }
 inline constexpr double kUsualShare = 0.7;  // chosen (docs/modules.md): fast, without overshoot
 
 }  // namespace gaitlab

@@ -13,41 +13,38 @@ namespace gaitlab {
 /// is neglected, as in the paper. V: double or lanes.
 ///
 /// As printed, eq. 2 multiplies the torque by eta in both directions. A joint that drives its motor then needs only eta T
-/// instead of T / eta, and the gear creates energy. `reversal_speed` > 0 makes the efficiency directional:
-///     T = eta^s Kt i n, s = w sign(i) / reversal_speed within [-1, 1]
-/// The efficiency is then eta while the motor drives and 1 / eta while it is back-driven, and the loss in the gear (1 - eta^s)
-/// Kt i n w is never negative. A torque that jumps at w = 0 would make any explicit method chatter. `reversal_speed` smooths
-/// the jump, as v_lim does for friction. Implicit methods have `jumps` = 1 instead: s is the sign of w i. At w = 0 the torque
-/// is any between those of both sides, and the joint can stick.
+/// instead of T / eta, and the gear creates energy. A directional gear has the efficiency `load`, beside eta:
+///     T = load^s eta Kt i n, s = w sign(i) / reversal_speed within [-1, 1]
+/// Its factor is `load` while the motor drives and 1 / load while it is back-driven, and its loss (1 - load^s) eta Kt i n w is
+/// never negative. A torque that jumps at w = 0 would make any explicit method chatter. `reversal_speed` smooths the jump, as
+/// v_lim does for friction. Implicit methods have `jumps` = 1 instead: s is the sign of w i. At w = 0 the torque is any between
+/// those of both sides, and the joint can stick.
+///
+/// Power drawn: u i. With `returns` = 1, a motor that is driven gets back only eta Kt i n w of its joint's power, so that
+/// neither eta nor the gear creates energy.
 template <class V>
 struct BasicDcMotor {
   V R = 1.0, Kt = 0.0, Ks = 0.0, gear = 1.0, efficiency = 1.0, u_max = 0.0, i_max = 0.0;
-  V reversal_speed = 0.0;  ///< joint speed, rad/s; 0 for eq. 2 as printed, or if the efficiency jumps
-  V jumps = 0.0;           ///< 1 for a directional efficiency that jumps at rest, otherwise 0
+  V load = 1.0;            ///< efficiency of a directional gear; 1 for eq. 2 as printed
+  V reversal_speed = 0.0;  ///< joint speed, rad/s; 0 for eq. 2 as printed, or for a gear that jumps
+  V returns = 0.0;         ///< 1 or 0
+  V jumps = 0.0;           ///< 1 for a directional gear that jumps at rest, otherwise 0
   V back_emf_damping = Kt * Ks * gear * gear / R;
-  V log_efficiency = math::log(efficiency);  ///< <= 0
-  V driven = math::exp(-log_efficiency);  ///< 1 / eta, with the rounding of exp(): share of a gear that is driven by its joint
-  V driving = math::exp(log_efficiency);  ///< eta, with the same rounding
+  V log_load = math::log(load);     ///< <= 0
+  V driven = math::exp(-log_load);  ///< 1 / load, with the rounding of exp(): factor of a gear that is driven by its joint
+  V driving = math::exp(log_load);  ///< load, with the same rounding
 
   /// All members, in their order.
-  static constexpr std::array<V BasicDcMotor::*, 13> constants() {
+  static constexpr std::array<V BasicDcMotor::*, 15> constants() {
     using M = BasicDcMotor;
-    return {&M::R,
-            &M::Kt,
-            &M::Ks,
-            &M::gear,
-            &M::efficiency,
-            &M::u_max,
-            &M::i_max,
-            &M::reversal_speed,
-            &M::jumps,
-            &M::back_emf_damping,
-            &M::log_efficiency,
-            &M::driven,
-            &M::driving};
+    return {&M::R,        &M::Kt,         &M::Ks,
+            &M::gear,     &M::efficiency, &M::u_max,
+            &M::i_max,    &M::load,       &M::reversal_speed,
+            &M::returns,  &M::jumps,      &M::back_emf_damping,
+            &M::log_load, &M::driven,     &M::driving};
   }
   /// Computes the constants that follow from others, after a change of others.
-  void derive() { *this = {R, Kt, Ks, gear, efficiency, u_max, i_max, reversal_speed, jumps}; }
+  void derive() { *this = {R, Kt, Ks, gear, efficiency, u_max, i_max, load, reversal_speed, returns, jumps}; }
 
   struct Effort {
     V torque;                        ///< N m
@@ -62,7 +59,7 @@ struct BasicDcMotor {
     [[nodiscard]] V saturation() const { return math::select(limited, V(2.0), math::select(clamped, V(1.0), V(0.0))); }
   };
 
-  /// An efficiency that jumps is 1 at rest, between those of both sides.
+  /// A gear that jumps has the factor 1 at rest, between those of both sides.
   [[nodiscard]] Effort operator()(const V& command, const V& speed) const { return on(sign(speed), command, speed); }
   /// Effort by the law of one side of a jump, 1 (w >= 0) or -1 (w <= 0), which goes on past rest.
   [[nodiscard]] Effort on(const V& side, const V& command, const V& speed) const { return at(side, command, speed, i_max); }
@@ -87,8 +84,10 @@ struct BasicDcMotor {
     const Share share = gear_share(side, current, speed);
     const V torque = share.eta * Kt * current * gear;
     const V voltage = select(limited, R * current + emf, u);
-    const V drawn = voltage * current;
     const V copper = R * current * current;
+    V drawn = voltage * current;
+    const auto back = math::mask_and(returns > V(0.0), current * speed < V(0.0));
+    if (math::any_lane(back)) drawn = select(back, copper + efficiency * Kt * current * gear * speed, drawn);
     return {torque,
             share.eta * select(limited, V(0.0), back_emf_damping) + share.slope * Kt * math::abs(current) * gear,
             current,
@@ -111,9 +110,9 @@ struct BasicDcMotor {
     const auto jump = jumps > zero;
     if (math::any_lane(jump)) {
       const V along = select(current < zero, -side, side);
-      const V eta = select(along > zero, driving, select(along < zero, driven, one));
+      const V factor = select(along > zero, driving, select(along < zero, driven, one));
       const Share smooth = smooth_share(current, speed);
-      return {select(jump, eta, smooth.eta), select(jump, zero, smooth.slope)};
+      return {select(jump, efficiency * factor, smooth.eta), select(jump, zero, smooth.slope)};
     }
     return smooth_share(current, speed);
   }
@@ -125,10 +124,10 @@ struct BasicDcMotor {
     if (!math::any_lane(directional)) return {efficiency, zero};
     const V along = select(current < zero, -speed, speed) / select(directional, reversal_speed, one);
     const auto turning_over = math::mask_and(directional, math::abs(along) < one);
-    V eta = select(directional, select(along < zero, driven, driving), efficiency);
+    V eta = select(directional, efficiency * select(along < zero, driven, driving), efficiency);
     if (!math::any_lane(turning_over)) return {eta, zero};
-    eta = select(turning_over, math::exp(log_efficiency * math::clamp(along, -one, one)), eta);
-    return {eta, select(turning_over, -eta * log_efficiency / select(directional, reversal_speed, one), zero)};
+    eta = select(turning_over, efficiency * math::exp(log_load * math::clamp(along, -one, one)), eta);
+    return {eta, select(turning_over, -eta * log_load / select(directional, reversal_speed, one), zero)};
   }
 };
 

@@ -27,6 +27,9 @@ struct Spec {
 /// Least number of a range whose numbers must be above 0.
 inline constexpr double kPositive = std::numeric_limits<double>::denorm_min();
 
+/// Value of a number that is not stated, of a field with a `usual` value whose range begins at 0.
+inline constexpr double kNotStated = -1;
+
 /// A value per joint, or per module. In YAML it is a number, a list, or a map such as {default: x, m3/passive: y, "*/active":
 /// z}.
 struct PerJoint {
@@ -82,6 +85,7 @@ struct OneOf {
   std::span<const char* const> names;
 };
 /// Meaning of a value per joint for a verdict.
+/// - setting: any other value. With `usual`, kNotStated stands for the value of `usual`, which follows from other fields.
 /// - limit: limit of the actuator; a run without such limits measures the demand of a gait. If a limit of 0 means "not stated",
 ///   `usual` is the value that applies instead; if `usual` is null, 0 is a limit like any other.
 /// - rating: value stated by the maker. 0 for every joint means "not stated", and the resolved scenario omits the key.
@@ -94,6 +98,22 @@ struct EachJoint {
   const PerJoint* usual = nullptr;
   bool of_modules = false;  ///< true for a value per module
 };
+/// True if no joint of a setting has a stated value.
+inline bool not_stated(const EachJoint& field) {
+  const auto unknown = [](double one) { return one == kNotStated; };
+  if (field.role != Role::setting || field.usual == nullptr) return false;
+  return field.value.each.empty() ? unknown(field.value.common)
+                                  : std::all_of(field.value.each.begin(), field.value.each.end(), unknown);
+}
+/// The value with the numbers of `usual` where it is a setting that is not stated.
+inline PerJoint in_force(const EachJoint& field) {
+  if (field.role != Role::setting || field.usual == nullptr) return field.value;
+  if (not_stated(field)) return *field.usual;
+  PerJoint value = field.value;
+  for (std::size_t j = 0; j < value.each.size(); ++j)
+    if (value.each[j] == kNotStated) value.each[j] = (*field.usual)[j];
+  return value;
+}
 /// A joint, by name or number in the file. `value` is its number.
 struct Joint {
   std::int64_t& value;
@@ -217,6 +237,10 @@ class Fields {
     if (read != value) value = read;  // Without a change, nothing is written, because threads that only read share the settings
   }
   void per_joint(const char* key, PerJoint& value, Spec spec) { visit({key, spec.about, field::EachJoint{value, spec}}); }
+  /// Field of a value per joint whose default, `usual`, follows from the fields before it. Initial value: kNotStated.
+  void per_joint(const char* key, PerJoint& value, const PerJoint& usual, Spec spec) {
+    visit({key, spec.about, field::EachJoint{value, spec, field::Role::setting, &usual}});
+  }
   /// Field of a value per module, named m0, m1 ...
   void per_module(const char* key, PerJoint& value, Spec spec) {
     visit({key, spec.about, field::EachJoint{value, spec, field::Role::setting, nullptr, true}});

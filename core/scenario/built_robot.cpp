@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/laws/data_sheet.h"
 #include "core/laws/motor_bank.h"
 #include "core/settings/wording.h"
 
@@ -37,8 +38,14 @@ DcMotor built(DcMotor motor, const MotorBuild& build, bool limited_at_stall) {
   motor.Kt *= build.Kt;
   motor.Ks *= build.Kt;
   motor.u_max *= build.supply;
-  motor.efficiency = 1 - build.gear_friction * (1 - motor.efficiency);
-  if (limited_at_stall) motor.i_max = motor.u_max / motor.R;
+  const double more = build.gear_friction;
+  if (motor.returns > 0) {
+    motor.load = efficiency_of_load(more * load_of_efficiency(motor.load));
+  } else {
+    motor.efficiency = 1 - more * (1 - motor.efficiency);
+    motor.load = 1 - more * (1 - motor.load);
+  }
+  if (limited_at_stall) motor.i_max /= build.R;
   motor.derive();
   return motor;
 }
@@ -108,11 +115,12 @@ std::string not_buildable(const Scenario& scenario, const Actuator* actuator, co
   }
   for (std::size_t j = 0; j < scenario.robot->joints.size(); ++j) {
     const double factor = motor_build(scenario.as_built, j).gear_friction;
-    if (!scenario.robot->joints[j].driven() || factor == 1 || motors[j].efficiency > 0) continue;
-    const double lost = (1 - motors[j].efficiency) / factor;  // lost share of the gear in the drawings
+    const double eta = motors[j].efficiency * motors[j].load;
+    if (!scenario.robot->joints[j].driven() || factor == 1 || (eta > 0 && motors[j].load > 0)) continue;
+    const double lost = (1 - eta) / factor;  // lost share of the gear in the drawings
     const std::string wrong = fmt::format(
         "gear_friction {:.4g} changes the gear efficiency of {} from {:.4g} to {:.4g}; expected an efficiency above 0, ",
-        factor, scenario.robot->joints[j].name, 1 - lost, motors[j].efficiency);
+        factor, scenario.robot->joints[j].name, 1 - lost, eta);
     if (of_motors.starts_with(kTolerancesSection)) {
       return wrong + fmt::format("which every seed gives with a deviation below {:.4g} (this is seed {})", (1 / lost - 1) / 3,
                                  scenario.seed);

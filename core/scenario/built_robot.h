@@ -14,7 +14,7 @@ namespace gaitlab {
 std::string build_robot(Scenario& scenario, bool stated);
 
 /// Actuator for scenarios with the same plugin, one lane each, with motor constants as built (core/scenario/as_built.h). If the
-/// current limit is the current at stall, it changes with resistance and voltage limit. Directional gears jump at rest if the
+/// current limit is the current at stall, it changes with the resistance. Directional gears jump at rest if the
 /// integrator is implicit (core/laws/dc_motor.h). Null if the scenarios have no actuator.
 /// Throws PluginError.
 std::unique_ptr<Actuator> make_motors(std::span<const Scenario* const> lanes);

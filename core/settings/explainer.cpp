@@ -119,7 +119,8 @@ void Explainer::on(const char* key, const char* about, const field::EachJoint& f
   const std::string preset = field.value.each.empty() ? number_text(field.value.common) : list_text(field.value.each);
   const bool absent = field.value == PerJoint();
   row(key, field.spec.unit,
-      absent && field.role == field::Role::rating     ? "not stated"
+      not_stated(field)                               ? "see text"
+      : absent && field.role == field::Role::rating   ? "not stated"
       : absent && field.role == field::Role::required ? ""
                                                       : preset,
       (range.empty() ? "" : range + ", ") + (field.of_modules ? "per module" : "per joint"), about);

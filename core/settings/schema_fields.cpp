@@ -108,7 +108,7 @@ void SchemaFields::on(const char* key, const char* about, const field::EachJoint
                                              : " One number, a list, or {default: x, JOINT: y}; JOINT may be a pattern: "
                                                "\"*/active\".");
   properties_[key] = described(std::move(json), text.c_str(), field.spec.unit);
-  if (field.role == field::Role::required) return;
+  if (field.role == field::Role::required || not_stated(field)) return;
   properties_[key] =
       preset(std::move(properties_[key]), field.value.each.empty() ? Json(field.value.common) : Json(field.value.each));
 }

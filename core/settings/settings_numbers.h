@@ -13,6 +13,7 @@ class SettingsNumbers final : public Fields {
   struct Found {
     std::string key, unit;
     PerJoint value;
+    bool stated = true;  ///< false for a value that follows from other fields
   };
   explicit SettingsNumbers(const PluginSelection& plugin);
   /// Numbers of a section.

@@ -61,7 +61,9 @@ void Writer::on(const char* key, const field::OneOf& field) { add(key, scalar_no
 
 void Writer::on(const char* key, const field::EachJoint& field) {
   if (field.role == field::Role::rating && field.value == PerJoint()) return;
-  add(key, field.value.each.empty() ? scalar_node(number_text(field.value.common)) : numbers_node(field.value.each));
+  if (not_stated(field)) return;
+  const PerJoint value = in_force(field);
+  add(key, value.each.empty() ? scalar_node(number_text(value.common)) : numbers_node(value.each));
 }
 
 void Writer::on(const char* key, const field::Joint& field) {

@@ -141,6 +141,7 @@ Motors motors(const Scenario& scenario, double fastest) try {
   const DcMotor* const dc = available.actuator().dc_motors();
   const SettingsNumbers settings(scenario.actuator);
   const SettingsNumbers::Found* const sheet = settings.find("stall_torque");
+  const SettingsNumbers::Found* const voltage = settings.find("voltage");
   for (std::size_t j = 0; j < joints; ++j) {
     of_joint[j].unit = available.actuator().command_unit();
     if (!ratings.empty()) {
@@ -150,8 +151,9 @@ Motors motors(const Scenario& scenario, double fastest) try {
       of_joint[j].speed_max = stated(ratings[j].speed);
     }
     if (dc != nullptr && dc[j].R > 0) {
-      const double stall = dc[j].efficiency * dc[j].Kt * dc[j].gear * dc[j].u_max / dc[j].R;
-      of_joint[j].stall = finite(sheet == nullptr ? stall : std::min(stall, sheet->value[j]));
+      const double stall = dc[j].efficiency * dc[j].load * dc[j].Kt * dc[j].gear * dc[j].u_max / dc[j].R;
+      const double supply = sheet == nullptr ? 1 : std::min(1.0, dc[j].u_max / voltage->value[j]);
+      of_joint[j].stall = finite(sheet == nullptr ? stall : sheet->value[j] * supply);
     }
     if (!available.known(j)) continue;
     of_joint[j].command = available.commands()[j];

@@ -55,7 +55,7 @@ std::vector<std::string> changed_figures(const Scenario& scenario, const TypePre
   const SettingsNumbers settings(scenario.actuator);
   for (const SettingsNumbers::Found& setting : settings.all()) {
     const SettingsNumbers::Found* of_type = presets.find(setting.key);
-    if (of_type != nullptr && !(setting.value == of_type->value)) keys.push_back(setting.key);
+    if (of_type != nullptr && setting.stated && !(setting.value == of_type->value)) keys.push_back(setting.key);
   }
   return keys;
 }
@@ -115,7 +115,8 @@ std::string silent_defaults(const Scenario& scenario) {
   std::vector<std::string> silent;
   if (settings.find("stall_current") != nullptr && !stated("stall_current") && !stated("efficiency"))
     silent.emplace_back("efficiency 0.7");
-  if (settings.find("rotor_inertia") != nullptr && !stated("rotor_inertia"))
+  const bool usual = settings.find("load_friction") != nullptr;  // a servo's inertia then counts as chosen
+  if (!usual && settings.find("rotor_inertia") != nullptr && !stated("rotor_inertia"))
     silent.emplace_back("rotor_inertia 0 (0.002 kg m^2 for a servo of 1 N m)");
   return silent.empty() ? "" : fmt::format("by default: {}", fmt::join(silent, ", "));
 }

@@ -8,13 +8,15 @@ using namespace golden;
 namespace {
 
 const std::string kOnGround = "contact: {on: all}\nphysics: {engine: articulated, accuracy: 0.001}\n";
+const std::string kBare =
+    "actuator: {load_friction: 0, dry_friction: 0, viscous_friction: 0, rotor_inertia: 0}\n";  // nothing but the sheet's line
 /// Two blocks that stand, three modules that creep in a plane, and an arm that holds its weight.
 const std::pair<const char*, std::string> kSteady[] = {
     {"stands.yaml", "gaitlab: 1\nrobot: {modules: mtran, docks: [[1, 1, 4, 0, 0]]}\nduration: 0.3\n" + kOnGround},
     {"straight.yaml",
      "gaitlab: 1\nrobot: {modules: y1, docks: [[0, 1, 1, 0, 0], [0, 2, 1, 1, 0]]}\nduration: 0.3\n"
      "cpg: {type: sine, frequency: 1, amplitude: 0.1, phase_lag: 0}\n" +
-         kOnGround},
+         kBare + kOnGround},
     {"holds.yaml",
      "gaitlab: 1\nrobot: {base: fixed, position: [0, 0, 1], modules: y1, docks: [[0, 1, 1, 0, 0]]}\nground: {type: none}\n"
      "contact: {on: none}\nphysics: {engine: articulated, accuracy: 0.001}\ninitial: {angles: 0.4}\nduration: 0.3\n"},
@@ -81,7 +83,7 @@ TEST_F(SteadyGolden, RefusesASelectionOfNothing) {
   const Result none = call("approve snake.yaml --reason none");
   EXPECT_EQ(none.code, 2);
   EXPECT_EQ(none.err.substr(0, none.err.find(';')),
-            "snake.yaml:7:18: error: matches no column that a golden holds: joint.*.torque, joint.*.current, joint.*.angle, "
+            "snake.yaml:8:18: error: matches no column that a golden holds: joint.*.torque, joint.*.current, joint.*.angle, "
             "base.x, base.y, base.z, base.qw, base.qx, base.qy, base.qz");
   const Result unknown = call("approve snake.yaml --reason unknown --columns joint.*.torc");
   EXPECT_EQ(unknown.code, 2);

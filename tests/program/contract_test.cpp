@@ -50,7 +50,7 @@ class Numbers final : public Fields {
     if (const auto* one = std::get_if<field::NumberOr>(&field.value)) note(one->value, one->spec, false);
     if (const auto* one = std::get_if<field::Integer>(&field.value)) note(static_cast<double>(one->value), one->spec, true);
     if (const auto* one = std::get_if<field::EachJoint>(&field.value)) {
-      note(one->value.common, one->spec, false);
+      note(field::in_force(*one).common, one->spec, false);
       if (one->role == field::Role::required) required.push_back(prefix_ + field.key);
     }
     if (const auto* one = std::get_if<field::Group>(&field.value)) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/plugin/plugin_instance.h"
+#include "core/scenario/built_robot.h"
 #include "core/scenario/resolved.h"
 #include "core/scenario/sections.h"
 #include "core/settings/joint_patterns.h"
@@ -27,6 +28,7 @@ const Label kServoWalk("Servo.IsADcMotorBitForBit", "long;unsanitized");
 /// cm, 0.12 s per 60 degrees.
 const std::string kAx12 = "voltage: 10, stall_torque: 1.618, no_load_speed: 5.343, stall_current: 0.9";
 const std::string kSg92r = "voltage: 4.8, stall_torque: 0.24517, no_load_speed: 8.7266";
+const std::string kBare = ", load_friction: 0, dry_friction: 0, viscous_friction: 0, rotor_inertia: 0";  // no losses
 
 std::string worm(const std::string& servo, const std::string& more = {}) {
   return "gaitlab: 1\nrobot: {modules: mtran, build: robots/caterpillar-8.dat}\nphysics: {engine: articulated}\n"
@@ -67,7 +69,7 @@ TEST(Servo, ImpliesTheConstantsOfTheMotor) {
 
 TEST(Servo, IsTheStraightLineOfItsDataSheet) {
   for (const std::string& servo : {kAx12, kSg92r, kSg92r + ", efficiency: 0.35"}) {
-    const DcMotor m = motor(servo);
+    const DcMotor m = motor(servo + kBare);
     const double V = m.u_max;
     const double T0 = servo == kAx12 ? 1.618 : 0.24517;
     const double w0 = servo == kAx12 ? 5.343 : 8.7266;
@@ -87,42 +89,66 @@ TEST(Servo, IsTheStraightLineOfItsDataSheet) {
   }
 }
 
-/// A run with a servo has the same bits as a run with a dc_motor that has the computed constants.
+/// A run with a servo has the torques of a run with a dc_motor that has the computed constants.
 TEST(Servo, IsADcMotorBitForBit) {
-  std::vector<std::string> bits;
-  for (const char* common :
-       {", rotor_inertia: 1e-4", ", rotor_inertia: 1e-4, efficiency_model: directional, turn_speed: 0.5"}) {
-    const std::string own = kAx12 + common;
-    const DcMotor m = motor(own);
-    std::string text = worm(kAx12);
-    const std::size_t at = text.find("actuator: {");
-    text.replace(
-        at, text.find('}', at) - at,
-        fmt::format("actuator: {{type: dc_motor, R: {}, Kt: {}, Ks: {}, gear: 1, efficiency: {}, u_max: {}, i_max: {}{}", m.R,
-                    m.Kt, m.Ks, m.efficiency, m.u_max, m.i_max, common));
-    for (const char* engine : {"articulated", "bullet"}) {
-      if (catalog().engine(engine) == nullptr) continue;
-      const std::vector<std::string> sets{std::string("physics.engine=") + engine, "duration=0.3"};
-      const Trace mine = run(scenario(worm(own), sets)).trace;
-      const Trace other = run(scenario(text, sets)).trace;
-      EXPECT_GT(std::abs(mine.at(mine.rows() - 1, mine.find("joint.0.torque"))), 0) << engine;
-      EXPECT_EQ(hash(mine), hash(other)) << engine << common;
-      bits.push_back(hash(mine));
-    }
+  const std::string own = kAx12 + ", load_friction: 0, dry_friction: 0.05, viscous_friction: 0.02, rotor_inertia: 1e-4";
+  const DcMotor m = motor(own);
+  std::string text = worm(kAx12);
+  const std::size_t at = text.find("actuator: {");
+  text.replace(at, text.find('}', at) - at,
+               fmt::format("actuator: {{type: dc_motor, R: {}, Kt: {}, Ks: {}, gear: 1, efficiency: {}, u_max: {}, i_max: {}, "
+                           "dry_friction: 0.05, viscous_friction: 0.02, rotor_inertia: 1e-4",
+                           m.R, m.Kt, m.Ks, m.efficiency, m.u_max, m.i_max));
+  for (const char* engine : {"articulated", "bullet"}) {
+    if (catalog().engine(engine) == nullptr) continue;
+    const std::vector<std::string> sets{std::string("physics.engine=") + engine, "duration=0.3", "trace.columns=[joint.*]"};
+    const Trace mine = run(scenario(worm(own), sets)).trace;
+    const Trace other = run(scenario(text, sets)).trace;
+    EXPECT_GT(std::abs(mine.at(mine.rows() - 1, mine.find("joint.0.torque"))), 0) << engine;
+    EXPECT_EQ(hash(mine), hash(other)) << engine;
   }
-  EXPECT_NE(bits.front(), bits.back()) << "the efficiency model has an effect";
 }
 
-/// A directional gear also has losses if it is driven backwards. The torque is then 1 / eta^2 times that of eq. 2 as printed.
-TEST(Servo, MayHaveADirectionalGear) {
-  const DcMotor paper = motor(kSg92r);
-  const DcMotor m = motor(kSg92r + ", efficiency_model: directional, turn_speed: 0.3");
-  EXPECT_EQ(paper.reversal_speed, 0);
-  EXPECT_EQ(m.reversal_speed, 0.3);
-  constexpr double kRounding = 1e-14;  // rounding errors of some operations on torques of 0.1 N m
-  EXPECT_NEAR(m(4.8, 1).torque, paper(4.8, 1).torque, kRounding) << "the line of the data sheet while it drives";
-  EXPECT_NEAR(m(4.8, -0.5).torque * 0.7 * 0.7, paper(4.8, -0.5).torque, kRounding);
-  EXPECT_NEAR(m(4.8, 0).torque * 0.7, paper(4.8, 0).torque, kRounding);
+/// Without statements a servo has friction by its sheet; key by key, a stated number replaces it.
+TEST(Servo, HasUsualLosses) {
+  const auto made = [](const std::string& servo) { return make_motors(scenario(worm(servo))); };
+  const auto usual = made(kSg92r);
+  const double b = 0.24517 / 8.7266;
+  EXPECT_NEAR(usual->friction()[0].dry, 0.03 * 0.24517, 1e-15);
+  EXPECT_NEAR(usual->friction()[0].viscous, 0.1 * b, 1e-15);
+  EXPECT_NEAR(usual->reflected_inertia()[0], 0.03 * b, 1e-15);
+  const DcMotor& m = usual->dc_motors()[0];
+  EXPECT_NEAR(m.load, 0.85 / 1.15, 1e-15);
+  EXPECT_NEAR(m(4.8, 1).torque, m.load * 0.24517 * (1 - 1 / 8.7266), 1e-14) << "drives";
+  EXPECT_NEAR(m(2, 5).torque, 0.24517 * (2 / 4.8 - 5 / 8.7266) / m.load, 1e-14) << "is driven";
+  EXPECT_NEAR(m.on(1, 4.8, 0).torque, m.load * 0.24517, 1e-15) << "lifts";
+  EXPECT_NEAR(m.on(-1, 4.8, 0).torque, 0.24517 / m.load, 1e-14) << "holds";
+  const auto stated = made(kSg92r + ", dry_friction: 0");
+  EXPECT_EQ(stated->friction()[0].dry, 0);
+  EXPECT_EQ(stated->friction()[0].viscous, usual->friction()[0].viscous);
+  EXPECT_TRUE(made(kSg92r + kBare)->friction().empty());
+}
+
+/// The driven joint then has its sheet's torque at rest, and none at its speed.
+TEST(Servo, MayHaveTheSheetOfTheJoint) {
+  const auto motors = make_motors(scenario(worm(kSg92r + ", stall_torque_at: joint")));
+  const DcMotor& m = motors->dc_motors()[0];
+  const JointFriction& lost = motors->friction()[0];
+  EXPECT_NEAR(m.on(1, 4.8, 0).torque - lost.dry, 0.24517, 1e-14);
+  EXPECT_NEAR(m(4.8, 8.7266).torque - lost.dry - lost.viscous * 8.7266, 0, 1e-14);
+}
+
+/// No part of a servo creates energy, whoever drives.
+TEST(Servo, CreatesNoEnergy) {
+  for (const std::string& servo : {kAx12, kSg92r, kSg92r + kBare}) {
+    const DcMotor m = motor(servo);
+    for (double u = -2; u <= 2; u += 0.25) {
+      for (double w = -2; w <= 2; w += 0.25) {
+        const DcMotor::Effort e = m(u * m.u_max, w * 5);
+        EXPECT_GE(e.gear, -1e-14) << servo << " " << u << " " << w;  // rounding errors of powers of some W
+      }
+    }
+  }
 }
 
 TEST(Servo, RefusesWhatNoMotorCanDo) {
@@ -159,7 +185,7 @@ TEST(Servo, PerJointAndByPattern) {
   EXPECT_EQ(of("m0/active").u_max, 10);
   EXPECT_EQ(of("m0/passive").u_max, 5) << "the default follows its joint's voltage";
   EXPECT_EQ(of("m1/active").u_max, 6);
-  EXPECT_EQ(of("m1/active").i_max, 6 / of("m1/active").R);
+  EXPECT_EQ(of("m1/active").i_max, 10 / of("m1/active").R) << "the stall current at `voltage`";
   EXPECT_EQ(of("m0/active").efficiency, 0.5);
   EXPECT_NEAR(of("m1/active").efficiency, 0.7, 1e-15);
   const std::string once = resolved(s);
@@ -175,7 +201,7 @@ TEST(Servo, DefaultLimitsFollowTheVoltage) {
   };
   EXPECT_EQ(limits(kAx12, {"actuator.voltage=12"}).first, 12);
   EXPECT_EQ(limits(kAx12 + ", u_max: 0", {}).first, 10);
-  EXPECT_NEAR(limits(kAx12, {"actuator.u_max=5"}).second, 5, 1e-14);
+  EXPECT_NEAR(limits(kAx12, {"actuator.u_max=5"}).second, 10, 1e-14);
 }
 
 /// Motors of a module type with two hinges under settings of the scenario.
@@ -233,7 +259,7 @@ TEST_F(ServoModule, AStatedLimitStaysWhereItIsTheDefault) {
 
 TEST(Servo, TheVerdictAsksIt) {
   const Scenario s =
-      scenario(worm(kSg92r + ", i_continuous: 0.2, gear_torque_peak: 0.2, gear_torque_continuous: 0.1, speed_max: 8"));
+      scenario(worm(kSg92r + kBare + ", i_continuous: 0.2, gear_torque_peak: 0.2, gear_torque_continuous: 0.1, speed_max: 8"));
   EXPECT_NEAR(report::rest_torques(s).at(0), 0.24517, 1e-12);
   const report::Motors motors = report::motors(s, 1);
   const report::Envelope& envelope = motors.joint(0);
@@ -302,7 +328,7 @@ TEST(Servo, SourcesAreOfWhatTheModuleTypeStates) {
   const Folder folder;
   std::string type = read(kScenarios + "modules/mtran.yaml");
   type.replace(type.find("\nactuator:"), std::string::npos,
-               "\nactuator: {type: servo, " + kAx12 + ", source: data sheet 17}\n");
+               "\nactuator: {type: servo, " + kAx12 + kBare + ", source: data sheet 17}\n");
   folder.write("own.yaml", type);
   const auto source = [&](const std::string& more) {
     const std::string path = folder.write("s.yaml", "gaitlab: 1\nrobot: {modules: ./own.yaml}\nduration: 0.1\n" + more);

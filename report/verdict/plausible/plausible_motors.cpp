@@ -43,7 +43,7 @@ std::vector<MotorData> motor_data(const Scenario& s) {
     if (!s.robot->joints[j].driven()) continue;
     const DcMotor& m = motors[j];
     const bool one_constant = std::max(m.Kt / m.Ks, m.Ks / m.Kt) <= kConstantsApart;  // otherwise warnings.cpp reports them
-    MotorData one{j, m.efficiency * m.gear * m.Kt * std::min(m.u_max / m.R, m.i_max), m.u_max / (m.Ks * m.gear)};
+    MotorData one{j, m.efficiency * m.load * m.gear * m.Kt * std::min(m.u_max / m.R, m.i_max), m.u_max / (m.Ks * m.gear)};
     if (torque != nullptr && speed != nullptr) one = {j, torque->value[j], speed->value[j], "stall_torque", "no_load_speed"};
     if (torque == nullptr && !one_constant) continue;
     if (one.torque > 0 && one.speed > 0 && std::isfinite(one.torque + one.speed)) all.push_back(one);
@@ -171,8 +171,8 @@ std::vector<Impossible> impossible_torques(const Scenario& s) {
   const AvailableTorque available(s);
   const std::size_t joints = s.robot->joints.size();
   std::vector<double> most(joints);
-  std::vector<double> least(joints);
-  available.at(std::vector<double>(joints, 0.0), most, least);
+  std::vector<double> unused(joints);
+  available.actuator().effort(available.commands(), std::vector<double>(joints, 0.0), most, unused);
   for (std::size_t j = 0; j < joints; ++j) {
     const double times = most[j] / (kMost * held);
     if (!s.robot->joints[j].driven() || !available.known(j) || !(times > 1)) continue;

@@ -9,7 +9,7 @@ namespace {
 constexpr double kEta = 0.7;
 constexpr double kTurn = 0.5;
 
-DcMotor motor(double turn) { return {4.3, 0.00395, 0.00395, 594, kEta, 7.4, 1.2, turn}; }
+DcMotor motor(double turn) { return {4.3, 0.00395, 0.00395, 594, turn > 0 ? 1 : kEta, 7.4, 1.2, turn > 0 ? kEta : 1, turn}; }
 
 /// Power lost in the gear: the power Kt i n w of the motor's shaft minus the power T w of the joint, W.
 double gear_loss(const DcMotor& m, double command, double speed) {

@@ -14,7 +14,9 @@ using report::chosen;
 using report::figures_sentence;
 using report::motor_source;
 
-constexpr const char* kServo = "type: servo, voltage: 5, stall_torque: 1, no_load_speed: 6";
+constexpr const char* kServo =
+    "type: servo, voltage: 5, stall_torque: 1, no_load_speed: 6, load_friction: 0, dry_friction: 0, viscous_friction: 0, "
+    "rotor_inertia: 0";
 const std::string kDefaults =
     "R 4.3 ohm, Kt 0.00395 N m/A, Ks 0.00395 V s/rad, gear 594, efficiency 0.7, u_max 7.4 V, i_max 1.2 A";
 
@@ -90,7 +92,8 @@ TEST(MotorSource, TheNoteStandsWhereTheTypeDoes) {
   const std::size_t line = static_cast<std::size_t>(std::ranges::count(text.substr(0, text.find("dc_motor")), '\n')) + 1;
   EXPECT_EQ(notes(scenario(text)),
             (std::vector<std::string>{fmt::format(
-                "test.yaml:{}:9: note: the module type a states voltage, stall_torque, no_load_speed for actuator servo, which "
+                "test.yaml:{}:9: note: the module type a states voltage, stall_torque, no_load_speed, load_friction, "
+                "dry_friction, viscous_friction, rotor_inertia for actuator servo, which "
                 "are dropped: actuator dc_motor takes its own defaults {}; give these and source under actuator, or leave "
                 "type out",
                 line, kDefaults)}));
@@ -98,12 +101,12 @@ TEST(MotorSource, TheNoteStandsWhereTheTypeDoes) {
 
 /// If the scenario states all motor data, there is no note.
 TEST(MotorSource, OfFiguresThatTheScenarioGivesThereIsNoNote) {
-  EXPECT_EQ(
-      notes(with_type(kServo, "type: dc_motor, R: 2, Kt: 0.01, Ks: 0.01, gear: 50, efficiency: 0.8, u_max: 12")),
-      std::vector<std::string>{
-          "test.yaml:19:18: note: the module type a states voltage, stall_torque, no_load_speed for actuator servo, which "
-          "are dropped: actuator dc_motor takes its own default i_max 1.2 A; give this and source under actuator, or "
-          "leave type out"});
+  EXPECT_EQ(notes(with_type(kServo, "type: dc_motor, R: 2, Kt: 0.01, Ks: 0.01, gear: 50, efficiency: 0.8, u_max: 12")),
+            std::vector<std::string>{
+                "test.yaml:19:18: note: the module type a states voltage, stall_torque, no_load_speed, load_friction, "
+                "dry_friction, viscous_friction, rotor_inertia for actuator servo, which "
+                "are dropped: actuator dc_motor takes its own default i_max 1.2 A; give this and source under actuator, or "
+                "leave type out"});
   const std::string all = "type: dc_motor, R: 2, Kt: 0.01, Ks: 0.01, gear: 50, efficiency: 0.8, u_max: 12, i_max: 2";
   EXPECT_TRUE(notes(with_type(kServo, all)).empty());
   EXPECT_EQ(motor_source(with_type(kServo, all)), "chosen: no source stated");
@@ -210,8 +213,12 @@ TEST(MotorSource, OfSeveralModuleTypes) {
   EXPECT_EQ(source(pair("", "", ", drive: none")), "data sheet 17") << "no motor, no figure";
   const std::vector<std::string> both = notes(scenario(pair(kServo, "actuator: {type: dc_motor}\n")));
   ASSERT_EQ(both.size(), 2U) << "once for each type";
-  EXPECT_TRUE(contains(both[0], "the module type a states voltage, stall_torque, no_load_speed for actuator servo"));
-  EXPECT_TRUE(contains(both[1], "the module type b states voltage, stall_torque, no_load_speed for actuator servo"));
+  EXPECT_TRUE(contains(both[0],
+                       "the module type a states voltage, stall_torque, no_load_speed, load_friction, dry_friction, "
+                       "viscous_friction, rotor_inertia for actuator servo"));
+  EXPECT_TRUE(contains(both[1],
+                       "the module type b states voltage, stall_torque, no_load_speed, load_friction, dry_friction, "
+                       "viscous_friction, rotor_inertia for actuator servo"));
 }
 
 /// If the module types have different actuators and the scenario another one, the data of all types are dropped, also of types
@@ -271,11 +278,11 @@ TEST(MotorSource, OfPlugins) {
   EXPECT_EQ(motor_source(with("type: pushes, most: 3, source: bench", "actuator: {most: 4}\n")),
             "chosen: no source stated for most of the scenario")
       << "it has no other figure";
-  EXPECT_EQ(
-      notes(with(kServo, "actuator: {type: pushes}\n")),
-      std::vector<std::string>{
-          "test.yaml:19:18: note: the module type a states voltage, stall_torque, no_load_speed for actuator servo, which "
-          "are dropped: actuator pushes has none of them; give its keys and source under actuator, or leave type out"});
+  EXPECT_EQ(notes(with(kServo, "actuator: {type: pushes}\n")),
+            std::vector<std::string>{
+                "test.yaml:19:18: note: the module type a states voltage, stall_torque, no_load_speed, load_friction, "
+                "dry_friction, viscous_friction, rotor_inertia for actuator servo, which "
+                "are dropped: actuator pushes has none of them; give its keys and source under actuator, or leave type out"});
   EXPECT_TRUE(notes(with(kServo, "actuator: {type: pushes, most: 3}\n")).empty());
 }
 
@@ -284,10 +291,11 @@ TEST(MotorSource, DefaultsThatDoNotCountAreNamed) {
     return report::silent_defaults(scenario(one(motor, more)));
   };
   const std::string rotor = "rotor_inertia 0 (0.002 kg m^2 for a servo of 1 N m)";
-  EXPECT_EQ(defaults(kServo, ""), "by default: efficiency 0.7, " + rotor);
-  EXPECT_EQ(defaults(std::string(kServo) + ", stall_current: 2", ""), "by default: " + rotor);
-  EXPECT_EQ(defaults(std::string(kServo) + ", efficiency: 0.6, rotor_inertia: 0", ""), "") << "a stated 0";
-  EXPECT_EQ(defaults(std::string(kServo) + ", efficiency: 0.6", "actuator: {rotor_inertia: 0.001}\n"), "");
+  EXPECT_EQ(defaults("type: dc_motor", ""), "by default: " + rotor);
+  EXPECT_EQ(defaults("type: dc_motor, rotor_inertia: 0", ""), "") << "a stated 0";
+  EXPECT_EQ(defaults("type: dc_motor", "actuator: {rotor_inertia: 0.001}\n"), "");
+  EXPECT_EQ(defaults(kServo, ""), "by default: efficiency 0.7");
+  EXPECT_EQ(defaults(std::string(kServo) + ", stall_current: 2", ""), "");
   EXPECT_EQ(defaults(kServo, "actuator: {type: none}\n"), "");
 }
 

@@ -118,7 +118,8 @@ TEST(RemedyOfServos, HasASupplyAndAFasterMotor) {
       "      base: {mass: 0.2, shape: [{box: [0.05, 0.05, 0.05]}]}\n"
       "      rod: {mass: 0.05, com: [0, 0, -0.08], inertia: [1e-4, 1e-4, 1e-5, 0, 0, 0]}\n"
       "    hinges: [{name: j, parent: base, child: rod, axis: [0, 1, 0], range: [-1.5, 1.5]}]\n"
-      "    actuator: {type: servo, voltage: 5, stall_torque: 0.4, no_load_speed: 4, source: \"data sheet\"}\n"
+      "    actuator: {type: servo, voltage: 5, stall_torque: 0.4, no_load_speed: 4, load_friction: 0, dry_friction: 0, "
+      "viscous_friction: 0, rotor_inertia: 0, source: \"data sheet\"}\n"
       "    controller: {type: pid, Kp: 60, Kd: 0}\n"
       "physics: {engine: articulated}\nground: {type: none}\ncontact: {on: none}\n"
       "cpg: {type: sine, frequency: 0.95, amplitude: 0.8}\nduration: 4\n";

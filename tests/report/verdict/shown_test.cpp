@@ -123,7 +123,8 @@ TEST(Shown, TheEndOfTheRunDoesNotDecide) {
           "gaitlab: 1\nrobot: {{modules: y1, build: y1-snake-8, position: [0, 0, {}]}}\nphysics: {{engine: articulated}}\n"
           "contact: {{on: all}}\ncpg: {{type: sine, frequency: 0.5, phase_lag: 1.0472, model: {{ramp: 1}}, amplitude: "
           "{{default: 0, "
-          "m0/hinge: 0.4, m2/hinge: 0.4, m4/hinge: 0.4, m6/hinge: 0.4}}}}\nduration: {}\n",
+          "m0/hinge: 0.4, m2/hinge: 0.4, m4/hinge: 0.4, m6/hinge: 0.4}}}}\nduration: {}\n"
+          "actuator: {{load_friction: 0, dry_friction: 0, viscous_friction: 0, rotor_inertia: 0}}\n",
           height, end)));
       EXPECT_EQ(made.word, Word::feasible) << height << " m, " << end << " s: " << made.why();
       EXPECT_GE(made.from, 2.999) << "one period after the ramp of 1 s";

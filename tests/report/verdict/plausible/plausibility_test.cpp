@@ -339,7 +339,7 @@ TEST(Plausibility, SetPoints) {
   ASSERT_EQ(fast.size(), 1U);
   // An amplitude of 0.5 rad at 8 Hz is 0.5 * 2 pi * 8 = 25.1 rad/s. Over 15 ms, the mean is sin(0.377) / 0.377 of this, 24.5
   // rad/s.
-  EXPECT_TRUE(contains(fast[0], "move at up to 24.5 rad/s, but its motor reaches only 10.2 rad/s without load")) << fast[0];
+  EXPECT_TRUE(contains(fast[0], "move at up to 24.5 rad/s, but its motor reaches only 8.62 rad/s without load")) << fast[0];
   EXPECT_EQ(odd_numbers({{"range: [-1.57, 1.57]", "range: free"}}, {"cpg.amplitude=2"}), OddTexts()) << "without stops";
 }
 
