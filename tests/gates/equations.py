@@ -91,10 +91,14 @@ RUNS = {
                ["physics.engine=articulated"], checks.ALL),
     "servo": (THROWN + GAINS + "actuator: {type: servo, voltage: 7.4, stall_torque: [0.8, 1.5, 1.5, 1.5, 1.5, 1.5, 0.6, 1.5], "
               "no_load_speed: 3, stall_current: [0.6, 0, 0, 0, 0, 0, 0.5, 0], efficiency: [0, 0.5, 0, 0, 0, 0, 0, 0], rotor_inertia: 1e-4, "
+              "load_friction: 0, dry_friction: 0, viscous_friction: 0, "
               "u_max: 6, i_max: {default: 0.5, m1/passive: 0.3}}\n"
               "cpg: {type: sine, frequency: 1, amplitude: 1.2}\nduration: 1\n", ["physics.engine=articulated"], checks.ALL),
-    "servo, directional": (THROWN + GAINS + "actuator: {type: servo, voltage: 7.4, stall_torque: 1.5, no_load_speed: 3, "
-                           "efficiency: 0.6, efficiency_model: directional, turn_speed: 0.4}\n"
+    "servo, usual": (THROWN + GAINS + "actuator: {type: servo, voltage: 7.4, stall_torque: [1.5, 2, 1.5, 1.5, 1, 1.5, 1.5, 1.5], "
+                     "no_load_speed: 3, efficiency: 0.6, u_max: 9}\n"
+                     "cpg: {type: sine, frequency: 1, amplitude: 0.6}\nduration: 1\n", ["physics.engine=articulated"], checks.ALL),
+    "servo, joint": (THROWN + GAINS + "actuator: {type: servo, voltage: 7.4, stall_torque: 1.5, no_load_speed: 3, "
+                           "load_friction: 0.25, stall_torque_at: joint}\n"
                            "cpg: {type: sine, frequency: 1, amplitude: 0.6}\nduration: 1\n", ["physics.engine=articulated"], checks.ALL),
     "steps, bullet": (STEPS, ["trace.period=2.5e-5", "physics.step=2.5e-5", "actuator.rotor_inertia=1e-9"],
                       checks.ALL + (steps.steps,)),

@@ -12,6 +12,7 @@ class Motor:
     def __init__(self, run):
         section = run.scenario["actuator"]
         self.type = section["type"]
+        self.load = np.ones(run.n)
         if self.type == "torque":
             limit = section.get("limit")
             self.limit = run.per_joint(np.inf if limit in (None, "none") else limit)
@@ -19,19 +20,33 @@ class Motor:
             get = lambda key: run.per_joint(section[key])
             self.R, self.Kt, self.Ks, self.n, self.eta = (get(key) for key in ("R", "Kt", "Ks", "gear", "efficiency"))
             self.u_max, self.i_max, self.rotor = get("u_max"), get("i_max"), get("rotor_inertia")
+            self.turn_speed, self.load = float(section["turn_speed"]), np.ones(run.n)
+            if section["efficiency_model"] == "directional":
+                self.eta, self.load = self.load, self.eta
         if self.type == "servo":  # docs/equations.md, 3
             get = lambda key, absent=0.0: run.per_joint(section.get(key, absent))
-            V, T0, k, I0, eta = get("voltage"), get("stall_torque"), get("voltage") / get("no_load_speed"), get("stall_current"), get("efficiency")
+            V, T0, w0, I0, eta = (get(key) for key in ("voltage", "stall_torque", "no_load_speed", "stall_current", "efficiency"))
+            share = get("load_friction", 0.15)
+            self.load, self.turn_speed = (1 - share) / (1 + share), 0.6
+            self.rotor = get("rotor_inertia", np.nan)
+            self.rotor = np.where(np.isnan(self.rotor), 0.03 * T0 / w0, self.rotor)
+            dry, viscous = get("dry_friction", np.nan), get("viscous_friction", np.nan)
+            dry, viscous = np.where(np.isnan(dry), 0.03 * T0, dry), np.where(np.isnan(viscous), 0.1 * T0 / w0, viscous)
+            if section["stall_torque_at"] == "joint":
+                rest, free = (T0 + dry) / self.load, (dry + viscous * w0) / self.load
+                T0, w0 = rest, w0 * rest / (rest - free)
+            k = V / w0
             I0 = np.where(I0 > 0, I0, T0 / (np.where(eta > 0, eta, 0.7) * k))
             self.R, self.Kt, self.Ks, self.n, self.eta = V / I0, k, k, np.ones(run.n), T0 / (I0 * k)
-            u, i, self.rotor = get("u_max"), get("i_max"), get("rotor_inertia")
+            u, i = get("u_max"), get("i_max")
             self.u_max = np.where(u > 0, u, V)
-            self.i_max = np.where(i > 0, i, self.u_max / self.R)
+            self.i_max = np.where(i > 0, i, V / self.R)
+            self.dry, self.viscous = dry, viscous
         motor = self.type in ("dc_motor", "servo")
-        if motor:
-            self.directional, self.turn_speed = section["efficiency_model"] == "directional", float(section["turn_speed"])
+        self.directional = motor and bool(np.any(self.load < 1))
         self.explicit = run.scenario["physics"]["integrator"] in ("semi_implicit", "rk4")
-        self.dry, self.viscous = (run.per_joint(section.get(key, 0.0)) for key in ("dry_friction", "viscous_friction"))
+        if self.type != "servo":
+            self.dry, self.viscous = (run.per_joint(section.get(key, 0.0)) for key in ("dry_friction", "viscous_friction"))
         self.reflected = self.n**2 * self.rotor if motor else np.zeros(run.n)  # adds to the joint's inertia
         self.command_limit = self.u_max if motor else self.limit if self.type == "torque" else np.full(run.n, np.inf)
 
@@ -42,10 +57,15 @@ class Motor:
         return np.clip(free, -self.i_max, self.i_max), saturation
 
     def efficiency(self, i, w):
-        """Efficiency eta, or eta^s of docs/equations.md, 3."""
+        """Efficiency eta, times load^s of docs/equations.md, 3."""
         if not self.directional:
             return np.broadcast_to(self.eta, i.shape)
-        return self.eta ** (np.clip(w * np.sign(i) / self.turn_speed, -1, 1) if self.explicit else np.sign(w * i))
+        return self.eta * self.load ** (np.clip(w * np.sign(i) / self.turn_speed, -1, 1) if self.explicit else np.sign(w * i))
+
+    def drawn(self, voltage, i, w):
+        """Electrical power. A servo that is driven gets back no more than its torque takes."""
+        power = voltage * i
+        return np.where(w * i < 0, self.R * i**2 + self.eta * self.Kt * i * self.n * w, power) if self.type == "servo" else power
 
     def torque(self, i, w):
         """Torque by eq. 2, less friction."""
@@ -57,8 +77,8 @@ class Motor:
 
     def at_rest(self, i):
         """Least and largest torque of a joint at rest under an implicit integrator."""
-        shaft = self.Kt * i * self.n
-        sides = (self.eta * shaft, shaft / self.eta) if self.directional else (self.eta * shaft, self.eta * shaft)
+        shaft = self.eta * self.Kt * i * self.n
+        sides = (self.load * shaft, shaft / self.load)
         return np.minimum(*sides) - self.dry, np.maximum(*sides) + self.dry
 
     def damping(self, command, i, w):
@@ -68,7 +88,7 @@ class Motor:
             e = self.efficiency(i, w)
             b = e * (self.Kt * self.Ks * self.n**2 / self.R)
             if self.explicit:
-                b = b + e * self.Kt * np.abs(i) * self.n * np.abs(np.log(self.eta)) / self.turn_speed
+                b = b + e * self.Kt * np.abs(i) * self.n * np.abs(np.log(self.load)) / self.turn_speed
         return np.where(self.current(command, w)[1] == 2, 0.0, b)
 
 

@@ -80,7 +80,7 @@ def steps(gate, run, rules):
 
     # Contributions of the step to the ledger.
     voltage = motor.R * i + motor.Ks * motor.n * speed
-    drawn, copper = voltage * i, motor.R * i**2
+    drawn, copper = motor.drawn(voltage, i, speed), motor.R * i**2
     size = (np.abs(drawn) + copper + np.abs(torque * speed)).sum(1) * h
     add = lambda part: np.diff(run[f"energy.{part}"])
     total = lambda part: EPS * 4 * np.abs(run[f"energy.{part}"][1:])

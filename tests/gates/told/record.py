@@ -124,13 +124,27 @@ class Record:
                 efficiency = np.nan_to_num(of("efficiency"))
                 stall = np.nan_to_num(of("stall_current"))
                 stall = np.where(stall > 0, stall, t0 / (np.where(efficiency > 0, efficiency, 0.7) * k))
-                eta = t0 / (stall * k)
-                self.i_max = np.where(of("i_max") > 0, of("i_max"), stall * u / v)
-                self.no_load = w0 * u / v
-                self.at_rest = k * eta * np.minimum(stall * u / v, self.i_max)
+                share = np.where(np.isnan(of("load_friction")), 0.15, of("load_friction"))
+                load = (1 - share) / (1 + share)
+                dry = np.where(np.isnan(of("dry_friction")), 0.03 * t0, of("dry_friction"))
+                viscous = np.where(np.isnan(of("viscous_friction")), 0.1 * t0 / w0, of("viscous_friction"))
+                line, free = t0, w0
+                if a.get("stall_torque_at") == "joint":
+                    line = (t0 + dry) / load
+                    free = w0 * line / (line - (dry + viscous * w0) / load)
+                    k = v / free
+                    stall = np.nan_to_num(of("stall_current"))
+                    stall = np.where(stall > 0, stall, line / (np.where(efficiency > 0, efficiency, 0.7) * k))
+                eta = line / (stall * k)
+                self.i_max = np.where(of("i_max") > 0, of("i_max"), stall)
+                largest = line * np.minimum(1, np.minimum(u / v, self.i_max / stall))  # of the motor at rest
+                self.at_rest = largest
+                # Speed at which load * line falls to the friction of the joint.
+                slope = line / free
+                self.no_load = (load * line * u / v - dry) / (load * slope + viscous)
                 self.limited = self.driven.copy()
                 self.stall = t0 * np.minimum(1, u / v)
-                held = self.at_rest / (eta if directional else 1)
+                held = largest / load + dry
                 self.makes_energy = self.driven & (eta > 1 + 1e-9)
             else:
                 limit = np.nan_to_num(of("limit")) if kind == "torque" else np.zeros(self.count)
@@ -138,6 +152,7 @@ class Record:
                 self.makes_energy = np.zeros(self.count, bool)
             self.holds_more = held > self.stall * (1 + 1e-9)
         self.no_load[~np.isfinite(self.no_load)] = np.nan
+        self.power = self.at_rest * self.no_load / 4 if kind != "servo" else of("stall_torque") * of("no_load_speed") / 4
         self.ratings = {key: of(key) for key in ("i_continuous", "gear_torque_peak", "gear_torque_continuous", "speed_max")}
         self.all_limited = bool(np.all(self.limited[self.driven]))
 

@@ -176,7 +176,7 @@ class Judged:
         for m in range(r.robot.count if "power" not in r.scenario.get("accept", []) else 0):
             own = [j for j, name in enumerate(r.names) if name.startswith(f"m{m}/") and r.driven[j]]
             mass = sum(body.mass for body in r.robot.bodies if body.name.startswith(f"m{m}/"))
-            power = sum(r.at_rest[j] * r.no_load[j] / 4 for j in own)
+            power = sum(r.power[j] for j in own)
             if power > 1500 * mass:
                 found.append((power / mass, -m, power, mass))
         density, m, power, mass = max(found, default=(0, 0, 0, 0))
