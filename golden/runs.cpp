@@ -13,6 +13,7 @@
 #include "core/build_id.h"
 #include "core/errors.h"
 #include "core/parallel.h"
+#include "core/scenario/built_robot.h"
 #include "core/scenario/resolved.h"
 #include "core/scenario/sections.h"
 #include "core/settings/joint_patterns.h"
@@ -228,7 +229,8 @@ std::vector<GoldenNumber> golden_numbers(const GoldenRun& run) {
 
 bool take_golden_accuracy(Scenario& scenario) {
   if (!scenario.physics.adapts() || scenario.places->contains("physics.accuracy")) return false;
-  scenario.physics.accuracy = kGoldenAccuracy;
+  const bool sticks = scenario.actuator.entry != nullptr && !make_motors(scenario)->friction().empty();
+  scenario.physics.accuracy = sticks ? kStickingAccuracy : kGoldenAccuracy;
   return true;
 }
 

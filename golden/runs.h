@@ -13,7 +13,9 @@ namespace gaitlab::golden {
 /// Accuracy of the runs of a golden if the scenario states none. The bands of columns at the default accuracy would be wider
 /// than kWidestColumn.
 inline constexpr double kGoldenAccuracy = 0.001;
-/// Gives kGoldenAccuracy to a scenario whose integrator chooses its steps, unless the scenario states an accuracy. True if the
+/// The same for joints with friction, whose torques jump as they begin and cease to stick.
+inline constexpr double kStickingAccuracy = 0.0001;
+/// Gives one of these accuracies to a scenario whose integrator chooses its steps, unless the scenario states an accuracy. True if the
 /// accuracy has changed.
 bool take_golden_accuracy(Scenario& scenario);
 
