@@ -188,7 +188,7 @@ class Record:
         """Residual of the ledger (docs/equations.md, 8): drawn energy minus all other terms."""
         e = self.run
         return e["energy.electrical"] - sum(e["energy." + name] for name in (
-            "copper", "gear", "stored", "contact", "friction", "stops", "hinges"))
+            "copper", "gear", "stored", "contact", "friction", "stops", "hinges", "dry"))
 
     def least_energy(self):
         return max(self.weight * 1e-3, np.finfo(float).tiny)

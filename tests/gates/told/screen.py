@@ -40,7 +40,7 @@ LINES = {
              r"|;? ?torque error not estimated)?",
     "energy": r"{drawn:.4g} J drawn; {missing:.2g} J unaccounted for(?: \({missing_share:.2g} %\))? = {copper:.4g} copper"
               r"(?: [+-] {gear:.3g} gear)?(?: [+-] {stored:.3g} stored)?(?: [+-] {contact:.3g} contact)?"
-              r"(?: [+-] {friction:.3g} friction)?(?: [+-] {stops:.3g} stops)?(?: [+-] {hinges:.3g} hinges)?"
+              r"(?: [+-] {friction:.3g} friction)?(?: [+-] {stops:.3g} stops)?(?: [+-] {hinges:.3g} hinges)?(?: [+-] {dry:.3g} joint friction)?"
               r"(?: [+-] {missing:.3g} residual)?(?: the gears created {created:.3g} J: eq\. 2 on back-driven joints"
               r"(?:; take actuator\.efficiency_model: directional)?)?",
     "stability": r"h lambda at most {stability:.2f} at t = {stability_time:.2f} s: .*; above 1 in {above:pct} of the ticks",
@@ -101,9 +101,9 @@ def numbers(judged):
         n |= {"torque_error": errors.max(), "inaccurate": {r.names[int(np.argmax(errors))]}, "event": run["parting.twin.time"],
               "event_joint": r.names[int(run["parting.twin.joint"])]}
     n |= {"accuracy": r.scenario["physics"].get("accuracy", np.nan), "solves": run["solves"], "drawn": run["energy.electrical"],
-          "lossless": "not meaningful" if (run["energy.copper"] + run["energy.gear"] + run["energy.hinges"]) < 0.01 * run["energy.electrical"]
+          "lossless": "not meaningful" if (run["energy.copper"] + run["energy.gear"] + run["energy.hinges"] + run["energy.dry"]) < 0.01 * run["energy.electrical"]
           or abs(n.get("electrical_cost", 1)) < 0.001 else None, "missing": abs(r.residual()), "missing_share": 100 * abs(r.residual()) / r.energy_scale(), "copper": run["energy.copper"]}
-    n |= {name: abs(run["energy." + name]) for name in ("gear", "stored", "contact", "friction", "stops", "hinges")}
+    n |= {name: abs(run["energy." + name]) for name in ("gear", "stored", "contact", "friction", "stops", "hinges", "dry")}
     ticks = run["control_ticks"]
     n |= {"stability_time": run["stability.time"], "above": run["control_ticks_above_1"] / ticks if ticks else 0.0}
     step = r.scenario["physics"]["step"]
