@@ -45,7 +45,7 @@ is the motor before losses; then the losses of gear and friction.
 
 u: command, V; w: joint speed, rad/s; E, T: torque, N m. V: voltage, T0: stall_torque, w0: no_load_speed.
 eta = (1 - load_friction) / (1 + load_friction): the gear eats this share of the sum of motor's and load's torque.
-A servo therefore lifts at most eta T0 - dry, and holds at most T0 / eta + dry. Where nothing is stated (chosen):
+A servo therefore lifts at most eta T0 - dry, and holds at most T0 / eta + dry. Defaults (chosen):
 
     dry_friction      3 % of T0            viscous_friction  10 % of T0 / w0
     rotor_inertia     0.03 s T0 / w0       load_friction     0.15 (eta 0.74)

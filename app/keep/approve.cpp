@@ -272,7 +272,8 @@ int approve(const ApproveArguments& arguments) {
   tell(golden, base, folder, calibrates);
   if (more_accurate) {
     say(scenario.file, "note",
-        fmt::format("the golden is a run with physics.accuracy: {}, because the scenario states none", scenario.physics.accuracy));
+        fmt::format("the golden is a run with physics.accuracy: {}, because the scenario states none",
+                    scenario.physics.accuracy));
   }
   say(wide_numbers(golden, scenario));
   return 0;

@@ -9,7 +9,7 @@ namespace {
 
 const std::string kOnGround = "contact: {on: all}\nphysics: {engine: articulated, accuracy: 0.001}\n";
 const std::string kBare =
-    "actuator: {load_friction: 0, dry_friction: 0, viscous_friction: 0, rotor_inertia: 0}\n";  // nothing but the sheet's line
+    "actuator: {load_friction: 0, dry_friction: 0, viscous_friction: 0, rotor_inertia: 0}\n";  // the sheet's line alone
 /// Two blocks that stand, three modules that creep in a plane, and an arm that holds its weight.
 const std::pair<const char*, std::string> kSteady[] = {
     {"stands.yaml", "gaitlab: 1\nrobot: {modules: mtran, docks: [[1, 1, 4, 0, 0]]}\nduration: 0.3\n" + kOnGround},

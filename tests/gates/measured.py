@@ -1,0 +1,94 @@
+#!/usr/bin/env python3
+"""A servo by its data sheet and the usual losses against 16 logs of a real one; nothing is fitted.
+
+    tests/gates/measured.py PROGRAM
+
+An XL330-M288-T lifts 0.49 kg at 0.1 m (tests/measured/xl330: Rhoban/bam, Apache-2.0). Its goals, its gain of position in volts
+per rad and the time at which its torque is switched off are those of each log. Needs numpy.
+"""
+import csv, pathlib, subprocess, sys, tempfile
+
+import numpy as np
+
+LOGS = pathlib.Path(__file__).resolve().parents[1] / "measured/xl330"
+SUPPLY = 7.3  # V, mean of the logs
+PWM_PER_RAD = 2.53  # of 885, per unit of the firmware's P gain; the logs give 2.52 to 2.54
+MASS, ARM, LENGTH = 0.49, 0.018, 0.1  # kg, kg, m
+MODULE = """gaitlab_module: 1
+name: lever
+bodies:
+  base: {{mass: 1, inertia: [1, 1, 1, 0, 0, 0]}}
+  arm: {{mass: {mass}, com: [0, 0, {com}], inertia: [{about}, {about}, 1e-6, 0, 0, 0]}}
+hinges: [{{name: hinge, parent: base, child: arm, axis: [0, 1, 0], range: free}}]
+"""
+SCENARIO = """gaitlab: 1
+robot: {{modules: ./lever.yaml, base: fixed, position: [0, 0, 1]}}
+initial: {{angles: {start}}}
+ground: {{type: none}}
+contact: {{on: none}}
+actuator: {{type: servo, voltage: 5, stall_torque: 0.52, no_load_speed: 10.786, u_max: {supply}, source: ROBOTIS e-manual}}
+controller: {{type: pid, Kp: {gain}, Kd: 0, period: 0.001}}
+cpg: {{type: keyframes, model: {{interpolation: linear, repeat: false, frames: [{frames}]}}}}
+physics: {{engine: articulated, estimate: off}}
+duration: {duration}
+trace: {{period: 0.002, columns: [t, joint.*]}}
+{off}"""
+
+
+def column(rows, name):
+    return np.array([float(row[name]) for row in rows])
+
+
+def replay(program, folder, log):
+    """Mean error of the angle, rad; shares of the time at the limit, simulated and logged; last simulated angle, rad."""
+    with open(log, encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    t, goal, angle, pwm = (column(rows, name) for name in ("t", "goal", "angle", "pwm"))
+    t, on = t - t[0], column(rows, "on") > 0
+    gain = int(log.name.split("-")[0][2:])
+    mass, moment = MASS + ARM, MASS * LENGTH**2 + ARM * LENGTH**2 / 3
+    com = (MASS + ARM / 2) * LENGTH / mass
+    off = "" if on.all() else f'at: [{{t: {t[np.argmin(on)]:.4f}, fault: {{joint: "*", kind: open}}}}]'
+    (folder / "lever.yaml").write_text(MODULE.format(mass=mass, com=-com, about=moment - mass * com**2), encoding="utf-8")
+    (folder / "s.yaml").write_text(SCENARIO.format(
+        start=angle[0], supply=SUPPLY, gain=PWM_PER_RAD * gain / 885 * SUPPLY, duration=f"{t[-1]:.4f}", off=off,
+        frames=", ".join(f"{{time: {a:.6f}, angles: {b:.6f}}}" for a, b in zip(t, goal))), encoding="utf-8")
+    subprocess.run([program, "run", "s.yaml", "--out", log.stem, "--no-report", "--quiet", "--format", "csv"], cwd=folder, check=True,
+                   stderr=subprocess.DEVNULL)
+    with open(folder / log.stem / "trace.csv", encoding="utf-8") as file:
+        trace = list(csv.DictReader(line for line in file if not line.startswith("#")))
+    of = {name.split()[0]: name for name in trace[0]}
+    simulated = np.interp(t, column(trace, of["t"]), column(trace, of["joint.0.angle"]))
+    limit = np.abs(column(trace, of["joint.0.voltage_command"])) >= SUPPLY
+    return np.abs(simulated - angle).mean(), limit.mean(), (np.abs(pwm) >= 885).mean(), simulated[-1]
+
+
+def main():
+    program = str(pathlib.Path(sys.argv[1]).resolve())
+    errors, wrong = {}, []
+    with tempfile.TemporaryDirectory() as folder:
+        for log in sorted(LOGS.glob("kp*.csv")):
+            error, limit, logged, last = replay(program, pathlib.Path(folder), log)
+            errors[log.stem] = error
+            print(f"{log.stem:28} {1000 * error:6.1f} mrad   at the limit {limit:.2f}, logged {logged:.2f}   end {last:+.3f} rad")
+            if "kp800" in log.stem and abs(limit - logged) > 0.1:
+                wrong.append(f"{log.stem}: {limit:.2f} of the time at the limit, {logged:.2f} logged; expected within 0.1")
+            if "drop" in log.stem and abs(last) > 0.02:
+                wrong.append(f"{log.stem}: an arm without current ends at {last:.3f} rad; expected at rest within 0.02")
+    if len(errors) != 16:
+        wrong.append(f"{len(errors)} logs; expected 16")
+    drops = 1000 * np.mean([error for name, error in errors.items() if "drop" in name])
+    everything = 1000 * np.mean(list(errors.values()))
+    print(f"mean error of 16 logs {everything:.1f} mrad, of four drops {drops:.1f} mrad (by the line of the data sheet alone 182 and 431)")
+    # 41.8 and 51.9 mrad measured; the bounds are those of the issue.
+    if not everything <= 48:
+        wrong.append(f"mean error {everything:.1f} mrad; expected at most 48")
+    if not drops <= 60:
+        wrong.append(f"mean error of drops {drops:.1f} mrad; expected at most 60")
+    for one in wrong:
+        print("WRONG", one)
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
