@@ -17,6 +17,7 @@ namespace {
 
 constexpr std::size_t kSpeeds = 121;  // points of a curve; odd, so that speed 0 is among them
 constexpr double kFastest = 1e5;      // rad/s: above any joint speed
+constexpr double kSlowest = 1e-6;     // rad/s: a motor that reaches less does not turn its joint
 constexpr int kHalvings = 60;         // until the interval of the bisection is empty
 
 /// Torque of every joint at its speed under the largest positive command, N m.
@@ -66,7 +67,7 @@ std::vector<std::optional<double>> no_load_speeds(const AvailableTorque& availab
     for (std::size_t j = 0; j < joints; ++j) (torque[j] > 0 ? low : high)[j] = middle[j];
   }
   std::vector<std::optional<double>> speeds;
-  for (const double speed : high) speeds.push_back(speed < kFastest && speed > 0 ? std::optional(speed) : std::nullopt);
+  for (const double speed : high) speeds.push_back(speed < kFastest && speed > kSlowest ? std::optional(speed) : std::nullopt);
   return speeds;
 }
 
