@@ -59,7 +59,7 @@ chosen for what a robot does. The motor's line is then raised by the losses. The
     i = (u - k w) / R             R = V / I0, |i| <= i_max
 
 The stall current and the efficiency T0 / (I0 k), at most 1, change currents, powers and copper losses, not torques. A motor that
-is driven gets back E w at most. Use servo if a data sheet states torque and speed, as for every hobby servo, and dc_motor if it
+is driven gets back E w at most, also at 0 V. Use servo if a data sheet states torque and speed, as for every hobby servo, and dc_motor if it
 states the constants of motor and gear. Units: 1 kgf cm = 0.0980665 N m; x s per 60 degrees = 1.0472 / x rad/s.
 Source: line: Chariot, Filippi, Verlinden 2012, eq. 1 and 2; numbers: the servo's data sheet; logs: Rhoban/bam.
 efficiency: 0.7 (chosen) if neither efficiency nor stall_current is stated. Takes commands in V.
@@ -114,8 +114,17 @@ void ServoActuator::Settings::fields(Fields& f) {
 }
 
 bool ServoActuator::Settings::check(Fields& f, std::size_t joint, bool alone) const {
-  if (!(stall_current[joint] > 0)) return true;
   const std::string which = alone ? "" : fmt::format(" (joint number {})", joint);
+  const double bound = stall_torque[joint] / no_load_speed[joint];
+  if (stall_torque_at == StallTorqueAt::joint && no_load_speed[joint] > 0 && !(friction(joint).viscous < bound)) {
+    f.problem(
+        "viscous_friction",
+        fmt::format("viscous_friction {:.4g} N m s/rad takes all of stall_torque at no_load_speed; expected below {:.4g} N m "
+                    "s/rad with stall_torque_at: joint{}",
+                    friction(joint).viscous, bound, which));
+    return false;
+  }
+  if (!(stall_current[joint] > 0)) return true;
   if (efficiency[joint] > 0) {
     f.problem("efficiency",
               "efficiency and stall_current are both stated, but one follows from the other; remove one of them" + which);
@@ -131,9 +140,10 @@ bool ServoActuator::Settings::check(Fields& f, std::size_t joint, bool alone) co
     return false;
   }
   if (eta <= 1 + kRounding && eta >= kLeastEfficiency) return true;
-  const std::string torque =
-      fmt::format("stall_torque {:.4g} N m at {:.4g} A and {:.4g} rad/s at {:.4g} V would need an efficiency of {:.3g}",
-                  stall_torque[joint], stall_current[joint], no_load_speed[joint], voltage[joint], eta);
+  const bool raises = stall_torque_at == StallTorqueAt::joint;
+  const std::string torque = fmt::format(
+      "stall_torque {:.4g} N m at {:.4g} A and {:.4g} rad/s at {:.4g} V{} would need an efficiency of {:.3g}", raised.torque,
+      stall_current[joint], raised.speed, voltage[joint], raises ? ", raised by stall_torque_at: joint," : "", eta);
   f.problem(
       eta > 1 ? "stall_torque" : "stall_current",
       eta > 1

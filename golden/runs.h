@@ -15,8 +15,8 @@ namespace gaitlab::golden {
 inline constexpr double kGoldenAccuracy = 0.001;
 /// The same for joints with friction, whose torques jump as they begin and cease to stick.
 inline constexpr double kStickingAccuracy = 0.0001;
-/// Gives one of these accuracies to a scenario whose integrator chooses its steps, unless the scenario states an accuracy. True if the
-/// accuracy has changed.
+/// Gives one of these accuracies to a scenario whose integrator chooses its steps, unless the scenario states an accuracy. True
+/// if the accuracy has changed.
 bool take_golden_accuracy(Scenario& scenario);
 
 /// The scenario with the columns of a golden as its `trace.columns`: columns that a pattern of `selected` matches or, if it is

@@ -135,10 +135,9 @@ Drives drives(const Scenario& s) {
   actuator->effort(command, rest, torque, slope);
   const DcMotor* const motors = actuator->dc_motors();
   for (std::size_t j = 0; motors != nullptr && j < joints; ++j) {  // with the gear's loss while the motor drives
-    if (!s.robot->joints[j].driven() || !(motors[j].jumps > 0)) continue;
-    const DcMotor::Effort drives = motors[j].on(1, kSmall, 0);
-    torque[j] = drives.torque;
-    slope[j] = drives.slope;
+    if (!s.robot->joints[j].driven() || !(motors[j].load < 1)) continue;
+    torque[j] *= motors[j].load;
+    slope[j] = motors[j].efficiency * motors[j].load * motors[j].back_emf_damping;
   }
   Drives out;
   out.command_unit = actuator->command_unit();

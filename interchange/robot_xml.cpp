@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "core/laws/dc_motor.h"
 #include "core/laws/hinge_stop.h"
 #include "core/plugin/actuator.h"
 #include "core/scenario/built_robot.h"
@@ -70,6 +71,10 @@ std::vector<MotorLimits> motor_limits(const Scenario& scenario) {
   std::vector<double> torque(joints);
   std::vector<double> slope(joints);
   actuator->effort(command, rest, torque, slope);
+  const DcMotor* const motors = actuator->dc_motors();
+  for (std::size_t j = 0; motors != nullptr && j < joints; ++j) {  // what a motor gives while it drives
+    if (scenario.robot->joints[j].driven() && motors[j].load < 1) torque[j] = motors[j].load * torque[j];
+  }
   const In rotors = actuator->reflected_inertia();
   const std::span<const JointFriction> friction = actuator->friction();
   const std::vector<double> fastest = no_load_speeds(*actuator, command);

@@ -103,8 +103,8 @@ class ArticulatedPlant final : public Plant {
     for (const auto& solo : own_solos_) solo->change(hold, since);
     for (const auto& model : models_) model->change(hold);
   }
-  bool add_friction(In command, Out torque) override {
-    if (!explicit_) kernel_->add_friction(numbers_, command, torque);
+  bool add_friction(In command, double within, Out torque) override {
+    if (!explicit_) kernel_->add_friction(numbers_, command, within, torque);
     return !explicit_;
   }
   void tally(std::size_t lane, StepTally& out) const override {

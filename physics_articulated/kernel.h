@@ -34,9 +34,9 @@ class Kernel : public MotorLaws {
   virtual void step(Out state, Out history, In command, double h) = 0;
   /// See Plant::state_within.
   virtual bool state_within(std::size_t lane, std::size_t eighth, Out state) const = 0;
-  virtual void change(In hold, In since) = 0;                       ///< see Plant::change_joints; the solos are not changed
-  virtual void add_friction(In state, In command, Out torque) = 0;  ///< see Plant::add_friction
-  [[nodiscard]] virtual History history() const = 0;                ///< layout of the history of one rollout
+  virtual void change(In hold, In since) = 0;  ///< see Plant::change_joints; the solos are not changed
+  virtual void add_friction(In state, In command, double within, Out torque) = 0;  ///< see Plant::add_friction
+  [[nodiscard]] virtual History history() const = 0;                               ///< layout of the history of one rollout
   [[nodiscard]] virtual StepEffort applied() const = 0;
   /// Computes contacts and centre of mass of all lanes at `state`, for contact_forces() and com().
   virtual void update_contacts(In state) = 0;

@@ -46,6 +46,7 @@ class SolverPlant final : public Plant {
 
   void advance(In command, double h) override {
     layout_.read(numbers_, 0, state_);
+    last_ = h;
     start_speed_ = state_.qd;
     kinematics_.update(robot_, state_);
     body_.set(state_, kinematics_);
@@ -70,6 +71,12 @@ class SolverPlant final : public Plant {
 
   void contacts(std::size_t, std::span<ContactSample> out) const override {
     std::copy(samples_.begin(), samples_.end(), out.begin());
+  }
+
+  /// Adds the friction of the last step, as the contact forces are those of the last step.
+  bool add_friction(In, double, Out torque) override {
+    for (std::size_t j = 0; last_ > 0 && j < torque.size(); ++j) torque[j] += world_.friction(j).torque(last_);
+    return true;
   }
 
   void boxes(std::span<BoxMotion> out) const override { world_.boxes(out); }
@@ -241,6 +248,7 @@ class SolverPlant final : public Plant {
   std::vector<std::vector<std::size_t>> elements_of_body_;
   std::array<double, 4> work_ = {};  ///< works of the last step, J: contact, friction, stops, hinges
   OnePart part_;
+  double last_ = 0;  ///< s, last step; 0 before the first
 };
 
 }  // namespace

@@ -82,8 +82,7 @@ std::string stiffer(const ModuleType& type, int modules) {
 }  // namespace
 
 int modules_carried(const Scenario& one, int most) {
-  std::optional<double> torque = least_of_motors(one, &report::Envelope::stall);
-  if (!torque) torque = least_of_motors(one, &report::Envelope::rest);
+  const std::optional<double> torque = least_of_motors(one, &report::Envelope::rest);
   const double bend = mass_of(one.robot->types[0]) * kGravity * outline_edges(*one.robot).maxCoeff() / 8;  // of one module
   if (!torque || !(bend > 0)) return most;
   return std::max(1, static_cast<int>(std::min<double>(most, std::sqrt(kMotorShare * *torque / bend))));

@@ -41,8 +41,9 @@ inline double friction_along(const JointFriction& friction, double speed, double
   return (turns > 0 ? -friction.dry : friction.dry) - friction.viscous * turns;
 }
 
-/// Power lost in friction of a joint, W.
-inline double power_lost(const JointFriction& friction, double speed) {
+/// Power lost in friction of a joint, W, by the law for explicit methods if `creeps`.
+inline double power_lost(const JointFriction& friction, double speed, bool creeps) {
+  if (creeps) return -CreepingFriction<double>::at(friction.dry, friction.viscous, speed).torque * speed;
   return friction.dry * std::abs(speed) + friction.viscous * speed * speed;
 }
 

@@ -62,7 +62,7 @@ const std::array<BuiltNumber, 10> kBuiltNumbers{{
     {"R", Of::motors, Deviation::R, 1, factor("Factor on the winding resistance of a motor.")},
     {"Kt", Of::motors, Deviation::Kt, 1, factor("Factor on the torque constant and the back-EMF constant of a motor.")},
     {"gear_friction", Of::motors, Deviation::gear_friction, 1,
-     factor("Factor on a gear's loss (1 - efficiency) and on the joint's friction.")},
+     factor("Factor on a gear's loss (1 - efficiency, or load_friction) and on the friction of the motor's joint.")},
     {"supply", Of::robot, Deviation::supply, 1, factor("Factor on the motors' voltage limits.")},
 }};
 

@@ -238,8 +238,12 @@ void ScenarioChecks::rotors(const Actuator& actuator) {
   const Engine* engine = scenario_.physics.engine;
   const bool some = std::any_of(inertia.begin(), inertia.end(), [](double value) { return value > 0; });
   if (const ContactModel& contact = scenario_.contact.model(); some && !contact.rotor_inertia) {
-    problems_.add(place_of(root_, "actuator", "rotor_inertia"),
-                  fmt::format("contact law '{}' cannot add rotor inertia; expected 0, or contact.law: penalty", contact.text));
+    problems_.add(
+        place_of(root_, "actuator", "rotor_inertia"),
+        fmt::format(
+            "contact law '{}' cannot add rotor inertia; expected actuator.rotor_inertia: 0 (a servo has one by default), or "
+            "contact.law: penalty",
+            contact.text));
     return;
   }
   if (!some || engine == nullptr || engine->rotor_inertia) return;

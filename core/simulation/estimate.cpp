@@ -136,7 +136,7 @@ void Simulation::estimate() {
   const std::int64_t at = how_.at(step);
   const bool asked = (at + 1) % how_.compare == 0;
   if (asked) {
-    evaluate_torques();
+    evaluate_torques(h_);
     step_error_->see(first_.of(In(torque_), FirstLanes::torque), first_.of(In(slope_), FirstLanes::speed));
   }
   const double t = static_cast<double>(step + 1) * h_;
@@ -144,7 +144,7 @@ void Simulation::estimate() {
   for (const auto& one : apart_) one->step_companion(1);
   In torque;
   for (std::size_t k = 0; asked && k < kDifferences; ++k) {
-    if (k < kCompanions && !apart_.empty()) apart_[k]->evaluate_torques();
+    if (k < kCompanions && !apart_.empty()) apart_[k]->evaluate_torques(apart_[k]->h_);
     if (k < kCompanions) torque = apart_.empty() ? first_.from(torque_, recorded_ + k) : In(apart_[k]->torque_);
     step_error_->compare(static_cast<Companion>(k), torque, kFactors[k], 1, t);
   }
@@ -157,7 +157,7 @@ void Simulation::estimate_in_window(bool asked, double t) {
   apart_.front()->step_companion(std::max(1, -how_.steps));
   if (!asked || !how_.compares(step)) return;
   const double weight = step < how_.cycle ? StepError::kStart : 1;
-  apart_.front()->evaluate_torques();
+  apart_.front()->evaluate_torques(apart_.front()->h_);
   step_error_->compare(Companion::twin, apart_.front()->torque_, how_.factor, weight, t);
 }
 

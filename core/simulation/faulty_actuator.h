@@ -9,7 +9,8 @@
 namespace gaitlab {
 
 /// Applies faults to the motors of another actuator:
-///     weak    torque and slope times a share; current and electrical power unchanged; the gear loses the remaining power
+///     weak    torque and slope times a share; current unchanged, and electrical power while the motor drives; the gear loses
+///             the remaining power
 ///     open    no torque, slope, current and power, and voltage 0
 /// The friction of the joint remains.
 /// The results for a motor without a fault have the same bits as from the other actuator. If that actuator has DC motors, this

@@ -102,7 +102,8 @@ class Plant {
   /// Adds the friction of driven joints at the present state to their motor torques under these commands. A joint at rest has
   /// the torque that holds it there, as far as friction and gear can. Returns false and adds nothing if the integrator is
   /// explicit, with the law CreepingFriction.
-  virtual bool add_friction(In /*command*/, Out /*torque*/) { return false; }
+  /// `within`: time since the last change_joints(), s.
+  virtual bool add_friction(In /*command*/, double /*within*/, Out /*torque*/) { return false; }
   /// nullptr if the actuator evaluates its laws itself.
   [[nodiscard]] virtual MotorLaws* motor_laws() { return nullptr; }
 

@@ -54,7 +54,7 @@ Sample& Simulation::take_sample(Lane& lane, bool places) {
 /// Computes motor quantities and contacts as left limits, under the command in force.
 void Simulation::observe() {
   evaluate_motors(plant_state_.subspan(layout_.speeds(), command_.size()));
-  evaluate_torques();
+  evaluate_torques(within_);
   plant_->update_contacts();
 }
 
@@ -133,7 +133,7 @@ void Simulation::record_tick(Lane& lane) {
 void Simulation::record_loads(const std::function<bool(const Lane&)>& wanted) {
   const auto due = [&](const auto& lane) { return lane->recorder != nullptr && lane->recorder->loads_due() && wanted(*lane); };
   if (std::ranges::none_of(lanes_, due)) return;
-  evaluate_torques();
+  evaluate_torques(within_);
   for (const auto& lane : lanes_) {
     if (due(lane)) record_loads(*lane);
   }
@@ -203,7 +203,7 @@ void Simulation::watch_docks(const std::function<bool(const Lane&)>& wanted) {
   const auto due = [&](const auto& lane) { return wanted(*lane) && fine(*lane); };
   if (std::ranges::none_of(lanes_, due)) return;
   plant_->update_contacts();
-  evaluate_torques();
+  evaluate_torques(within_);
   for (const auto& lane : lanes_) {
     if (!due(lane)) continue;
     fill_loads(*lane);

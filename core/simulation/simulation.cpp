@@ -136,14 +136,15 @@ void Simulation::evaluate_motors(In speeds) {
   if (laws == nullptr || !laws->evaluate_motors(command_, speeds, into)) actuator_->electrical(command_, speeds, into);
 }
 
-/// Computes joint torques at the present state under the commands in force: those of the motors, and friction_.
-void Simulation::evaluate_torques() {
+/// Computes joint torques at the present state under the commands in force: those of the motors, and friction_. `within`: time
+/// since the last call of apply_faults(), s.
+void Simulation::evaluate_torques(double within) {
   if (actuator_ == nullptr) return;
   const In speeds = plant_state_.subspan(layout_.speeds(), command_.size());
   actuator_->effort(command_, speeds, torque_, slope_);
   if (!rubs_) return;
   std::ranges::copy(torque_, friction_.begin());
-  if (!plant_->add_friction(command_, torque_)) add_creeping(actuator_->friction(), speeds, torque_, slope_);
+  if (!plant_->add_friction(command_, within, torque_)) add_creeping(actuator_->friction(), speeds, torque_, slope_);
   for (std::size_t i = 0; i < friction_.size(); ++i) friction_[i] = torque_[i] - friction_[i];
 }
 
@@ -179,7 +180,7 @@ void Simulation::sense() {
   const std::size_t lanes = lanes_.size();
   // Left limits, as in a trace row: the sensors depend on the state and the command in force, not on the method of the last
   // step.
-  evaluate_torques();
+  evaluate_torques(0);
   const auto need_current = [](const auto& lane) { return lane->sensors.need_current(); };
   if (std::ranges::any_of(lanes_, need_current)) evaluate_motors(plant_state_.subspan(layout_.speeds(), command_.size()));
   plant_->update_contacts();
@@ -271,6 +272,8 @@ void Simulation::watch_stability() {
 /// `measured` lanes.
 void Simulation::advance(double h, const std::function<bool(const Lane&)>& measured) {
   plant_->advance(command_, h);
+  const Scenario& first = scenarios_[0];
+  const bool creeps = first.physics.integrator->limited && first.contact.law == ContactLaw::penalty;
   const StepEffort applied = plant_->applied();
   const std::size_t lanes = lanes_.size();
   for (std::size_t l = 0; l < recorded_; ++l) measured_[l] = measured(*lanes_[l]) ? 1 : 0;
@@ -287,7 +290,7 @@ void Simulation::advance(double h, const std::function<bool(const Lane&)>& measu
         first_.of(Out(copper_), FirstLanes::copper),         first_.of(Out(gear_), FirstLanes::gear)};
     const std::span<const JointFriction> friction =
         actuator_ == nullptr ? std::span<const JointFriction>() : actuator_->friction();
-    for (std::size_t i = 0; i < friction.size(); ++i) dry_[i] = power_lost(friction[i], of_all.speed[i]);
+    for (std::size_t i = 0; i < friction.size(); ++i) dry_[i] = power_lost(friction[i], of_all.speed[i], creeps);
     const bool peaks = part.instant || std::ranges::any_of(part.share, [](double share) { return share > 0; });
     meter_.add(time(), part, first_.of(setpoint_, FirstLanes::setpoint), electrical, first_.of(In(dry_), FirstLanes::dry),
                peaks ? evaluate_available(of_all) : available_, measured_);

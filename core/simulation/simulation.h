@@ -115,7 +115,7 @@ class Simulation {
   void ask_watch();
   void watch_stability();
   void evaluate_motors(In speeds);
-  void evaluate_torques();
+  void evaluate_torques(double within);
   In evaluate_available(const StepEffort::Part& part);
   void observe();
   [[nodiscard]] Rotors rotors(const Lane& lane) const;

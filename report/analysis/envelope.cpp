@@ -137,7 +137,11 @@ Motors motors(const Scenario& scenario, double fastest) try {
   const AvailableTorque available(scenario);
   const std::vector<std::optional<double>> no_load = no_load_speeds(available, joints);
   std::vector<Envelope> of_joint(joints);
-  const std::vector<double> rest = most_at(available, std::vector<double>(joints, 0.0));
+  const std::vector<double> at_rest(joints, 0.0);
+  const std::vector<double> rest = most_at(available, at_rest);
+  std::vector<double> motor(joints);
+  std::vector<double> unused(joints);
+  available.actuator().effort(available.commands(), at_rest, motor, unused);
   const std::span<const DriveRatings> ratings = available.actuator().ratings();
   const DcMotor* const dc = available.actuator().dc_motors();
   const SettingsNumbers settings(scenario.actuator);
@@ -158,7 +162,8 @@ Motors motors(const Scenario& scenario, double fastest) try {
     }
     if (!available.known(j)) continue;
     of_joint[j].command = available.commands()[j];
-    of_joint[j].rest = finite(rest[j]);
+    of_joint[j].rest = finite(motor[j]);
+    of_joint[j].holds = finite(rest[j]);
     if (rest[j] > 0) of_joint[j].no_load = no_load[j];
   }
   add_speeds(available, fastest, of_joint);

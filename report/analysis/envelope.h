@@ -35,7 +35,8 @@ class AvailableTorque {
 struct Envelope {
   std::string unit;                        ///< unit of the command: V or N m
   std::optional<double> command, current;  ///< largest useful command; largest current, A, if it is limited
-  std::optional<double> rest, no_load;     ///< torque at rest, N m; no-load speed, rad/s
+  std::optional<double> rest, no_load;     ///< motor's torque at rest, N m; no-load speed of the joint, rad/s
+  std::optional<double> holds;             ///< largest torque of the joint at rest, with friction and gear, N m
   /// Stall torque of a DC motor at its supply, N m: eta Kt n u_max / R, and at most the data sheet's. It does not depend
   /// on the model of the gear's efficiency.
   std::optional<double> stall;

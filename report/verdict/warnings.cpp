@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/laws/joint_friction.h"
 #include "core/scenario/built_robot.h"
 #include "core/settings/wording.h"
 #include "report/analysis/own_overlap.h"
@@ -56,20 +57,33 @@ void check_constants(const Scenario& s, const DcMotor* motors, std::vector<Warni
   }
 }
 
-/// Warns of the first joint that its motor cannot turn.
+/// Warns of the first joint that its motor cannot turn, and of joints that creep.
 void check_friction(const Scenario& s, const Actuator& actuator, std::vector<Warning>& out) {
   const std::span<const JointFriction> friction = actuator.friction();
+  if (friction.empty()) return;
+  const DcMotor* const motors = actuator.dc_motors();
+  const std::vector<double> rest(friction.size());
   std::vector<double> most(friction.size());
   std::vector<double> unused(friction.size());
-  if (!friction.empty()) actuator.effort(actuator.command_limit(), unused, most, unused);
+  actuator.effort(actuator.command_limit(), rest, most, unused);
+  bool dry = false;
   for (std::size_t j = 0; j < friction.size(); ++j) {
-    if (!s.robot->joints[j].driven() || !(friction[j].dry >= most[j])) continue;
+    if (!s.robot->joints[j].driven()) continue;
+    dry = dry || friction[j].dry > 0;
+    const double lifts = most[j] * (motors == nullptr ? 1 : motors[j].load);
+    if (!(friction[j].dry >= lifts)) continue;
+    out.push_back({s.nearest_place("actuator.dry_friction"),
+                   fmt::format("the motor of joint {} cannot turn it: dry_friction is {:.4g} N m, and the motor gives at most "
+                               "{:.4g} N m at rest",
+                               s.robot->joints[j].name, friction[j].dry, lifts)});
+    break;
+  }
+  if (dry && s.physics.integrator->limited && s.contact.law == ContactLaw::penalty) {
     out.push_back(
-        {s.nearest_place("actuator.dry_friction"),
-         fmt::format("the motor of joint {} cannot turn it: dry_friction is {:.4g} N m, the motor's largest torque at "
-                     "rest {:.4g} N m",
-                     s.robot->joints[j].name, friction[j].dry, most[j])});
-    return;
+        {s.nearest_place("physics.integrator"),
+         fmt::format("integrator {} has no joints that stick: dry friction is smooth below {:g} rad/s, and a held joint "
+                     "creeps; take integrator: adaptive",
+                     s.physics.integrator->name, CreepingFriction<double>::kCreep)});
   }
 }
 

@@ -6,7 +6,7 @@
 An XL330-M288-T lifts 0.49 kg at 0.1 m (tests/measured/xl330: Rhoban/bam, Apache-2.0). Its goals, its gain of position in volts
 per rad and the time at which its torque is switched off are those of each log. Needs numpy.
 """
-import csv, pathlib, subprocess, sys, tempfile
+import csv, json, pathlib, subprocess, sys, tempfile
 
 import numpy as np
 
@@ -40,7 +40,7 @@ def column(rows, name):
 
 
 def replay(program, folder, log):
-    """Mean error of the angle, rad; shares of the time at the limit, simulated and logged; last simulated angle, rad."""
+    """Mean error of the angle, rad; shares of the time at the limit, simulated and logged; last simulated angle, rad; failed ones of the checks `voltage` and `current`."""
     with open(log, encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
     t, goal, angle, pwm = (column(rows, name) for name in ("t", "goal", "angle", "pwm"))
@@ -60,7 +60,9 @@ def replay(program, folder, log):
     of = {name.split()[0]: name for name in trace[0]}
     simulated = np.interp(t, column(trace, of["t"]), column(trace, of["joint.0.angle"]))
     limit = np.abs(column(trace, of["joint.0.voltage_command"])) >= SUPPLY
-    return np.abs(simulated - angle).mean(), limit.mean(), (np.abs(pwm) >= 885).mean(), simulated[-1]
+    checks = {one["id"]: one["status"] for one in json.loads((folder / log.stem / "verdict.json").read_text(encoding="utf-8"))["checks"]}
+    fails = sorted(name for name in ("voltage", "current") if checks[name] == "fail")
+    return np.abs(simulated - angle).mean(), limit.mean(), (np.abs(pwm) >= 885).mean(), simulated[-1], fails
 
 
 def main():
@@ -68,9 +70,11 @@ def main():
     errors, wrong = {}, []
     with tempfile.TemporaryDirectory() as folder:
         for log in sorted(LOGS.glob("kp*.csv")):
-            error, limit, logged, last = replay(program, pathlib.Path(folder), log)
+            error, limit, logged, last, fails = replay(program, pathlib.Path(folder), log)
             errors[log.stem] = error
-            print(f"{log.stem:28} {1000 * error:6.1f} mrad   at the limit {limit:.2f}, logged {logged:.2f}   end {last:+.3f} rad")
+            print(f"{log.stem:28} {1000 * error:6.1f} mrad   at the limit {limit:.2f}, logged {logged:.2f}   end {last:+.3f} rad   fails {', '.join(fails) or '-'}")
+            if "drop" not in log.stem and (("kp800" in log.stem and not fails) or ("kp100" in log.stem and fails)):
+                wrong.append(f"{log.stem}: failed checks {fails}; expected one of voltage and current at gain 800, and none at gain 100")
             if "kp800" in log.stem and abs(limit - logged) > 0.1:
                 wrong.append(f"{log.stem}: {limit:.2f} of the time at the limit, {logged:.2f} logged; expected within 0.1")
             if "drop" in log.stem and abs(last) > 0.02:

@@ -189,6 +189,80 @@ TEST_P(Friction, CreepsUnderExplicitMethods) {
   EXPECT_LT(std::abs(smooth.ledger.residual()), 1e-2 * smooth.ledger.dry);
 }
 
+/// A joint that creeps loses as much as its weight gives.
+TEST_P(Friction, TheLedgerHasTheWorkOfACreep) {
+  Rod rod{GetParam(), "{type: torque, dry_friction: 2}"};
+  rod.angle = 0.35;  // 1.68 N m
+  rod.physics = "integrator: rk4, step: 1e-4";
+  rod.duration = 1;
+  const Recording record = run(rod.read());
+  EXPECT_LT(end(record, "joint.0.angle"), 0.3) << "it creeps";
+  EXPECT_GT(record.ledger.dry, 0.05);
+  EXPECT_LT(std::abs(record.ledger.residual()), 1e-3 * record.ledger.dry);
+}
+
+/// The gear's loss helps to hold and hinders to move: with E from the motor, the joint rests between eta E - dry and E / eta +
+/// dry.
+TEST_P(Friction, BreaksAwayAtTheBoundsOfTheGear) {
+  constexpr double kLoad = 0.25;  // eta = 0.6
+  constexpr double kDry = 0.1;
+  Rod rod{GetParam(),
+          "{type: servo, voltage: 1, stall_torque: 3, no_load_speed: 5, load_friction: 0.25, dry_friction: 0.1, "
+          "viscous_friction: 0, rotor_inertia: 0}"};
+  rod.controller = "{type: pid, Kp: 1, Kd: 0, period: 0.001}";
+  rod.row = 0.001;
+  rod.angle = 0.1;  // 0.4897 N m of weight, which the motor holds up
+  const double weight = kWeight * std::sin(rod.angle);
+  const double eta = (1 - kLoad) / (1 + kLoad);
+  const auto breaks = [&](double rate) {
+    rod.duration = 4;
+    // Command in V: E = 3 N m / V. Begins at what holds the weight without friction.
+    rod.more = fmt::format("cpg: {{type: equations, model: {{states: {{x: {}}}, initial: {{x: {}}}, output: x}}}}", rate / 3,
+                           rod.angle + weight / 3);
+    const Recording record = run(rod.read());
+    const Table table(record.trace);
+    std::size_t row = 0;
+    while (row < record.trace.rows() && table.at(row, "joint.0.speed") == 0) ++row;
+    EXPECT_LT(row, record.trace.rows());
+    return 3 * (table.at(row - 1, "joint.0.setpoint") - rod.angle);  // N m
+  };
+  EXPECT_NEAR(breaks(0.2), (weight + kDry) / eta, 2e-3 * weight) << "lifts";
+  EXPECT_NEAR(breaks(-0.2), (weight - kDry) * eta, 2e-3 * weight) << "is driven";
+}
+
+/// Bullet's own solver holds a joint, and the rows show what it holds.
+TEST(FrictionInBulletsSolver, HoldsAnArm) {
+  if (catalog().engine("bullet") == nullptr) GTEST_SKIP() << "built without Bullet";
+  Rod rod{"bullet", "{type: torque, dry_friction: 2}"};
+  rod.angle = 0.3;
+  rod.physics = "step: 1e-3";
+  rod.duration = 1;
+  const Recording record = run(rod.read({"contact.law=bullet", "trace.columns=[joint.*]"}));
+  EXPECT_NEAR(end(record, "joint.0.angle"), 0.3, 1e-4);
+  EXPECT_NEAR(end(record, "joint.0.torque"), kWeight * std::sin(0.3), 0.01 * kWeight);
+}
+
+/// Servos with their usual losses and faults side by side have the bits of each alone.
+TEST(FrictionLanes, HoldForServosWithFaults) {
+  const auto fault = [](const char* kind) {
+    return std::vector<std::string>{fmt::format("at=[{{t: 0.2, fault: {{joint: m1/hinge, {}}}}}]", kind)};
+  };
+  const std::vector<std::vector<std::string>> own{{},
+                                                  fault("kind: open"),
+                                                  fault("kind: dead"),
+                                                  fault("kind: stuck"),
+                                                  fault("kind: weak, share: 0.5"),
+                                                  {"actuator.dry_friction=0"},
+                                                  {"actuator.stall_torque_at=joint"}};
+  const std::vector<Scenario> all = rollouts(kScenarios + "library/y1-snake.yaml",
+                                             {"physics.estimate=off", "physics.accuracy=0.01", "duration=0.6"}, own, catalog());
+  for (const std::size_t lanes : {1U, 4U, 8U}) {
+    std::vector<std::string> ends(all.size());
+    run_batch(all, {1, lanes}, [&](std::size_t i, Recording&& end) { ends[i] = bits(end, end.outcome.text()); });
+    for (std::size_t i = 0; i < all.size(); ++i) EXPECT_EQ(ends[i], alone(all[i])) << i << ", " << lanes << " lanes";
+  }
+}
+
 /// Joints with and without friction side by side have the bits of each alone.
 TEST(FrictionLanes, HaveTheBitsOfEachAlone) {
   const std::vector<std::vector<std::string>> own{{},

@@ -141,7 +141,8 @@ TEST(Servo, MayHaveTheSheetOfTheJoint) {
 /// No part of a servo creates energy, whoever drives.
 TEST(Servo, CreatesNoEnergy) {
   for (const std::string& servo : {kAx12, kSg92r, kSg92r + kBare}) {
-    const DcMotor m = motor(servo);
+    const auto motors = make_motors(scenario(worm(servo)));
+    const DcMotor& m = motors->dc_motors()[0];
     for (double u = -2; u <= 2; u += 0.25) {
       for (double w = -2; w <= 2; w += 0.25) {
         const DcMotor::Effort e = m(u * m.u_max, w * 5);
@@ -168,6 +169,9 @@ TEST(Servo, RefusesWhatNoMotorCanDo) {
                  "i_continuous 2 A is above stall_current, 1.4 A");
   expect_refused(kAx12 + ", efficiency: 0.7",
                  "efficiency and stall_current are both stated, but one follows from the other; remove one of them");
+  expect_refused("voltage: 10, stall_torque: 1, no_load_speed: 5, viscous_friction: 0.2, stall_torque_at: joint",
+                 "viscous_friction 0.2 N m s/rad takes all of stall_torque at no_load_speed; expected below 0.2 N m s/rad");
+  expect_refused(kAx12 + ", stall_torque_at: joint", " V, raised by stall_torque_at: joint, would need an efficiency of ");
   expect_refused("voltage: 10, stall_torque: 1.8", "missing key 'no_load_speed'");
   expect_refused("voltage: 10, stall_torque: 0, no_load_speed: 5",
                  "stall_torque is 0 N m; expected more than 0 and up to 1000000000 N m");

@@ -68,7 +68,7 @@ std::vector<Rest> rests(const CheckedRun& run, Check& made) {
     made.text = kAllFaulty;
     if (!run.judges(j, made.span)) continue;
     Rest one{j, held(run, j, kAtRest * *motor.no_load, *motor.stall), *motor.stall, {}};
-    const bool bounded = motor.rest && *motor.rest <= kEqual * one.stall;
+    const bool bounded = motor.holds && *motor.holds <= kEqual * one.stall;
     if (bounded) {
       one.held.rms = std::min(one.held.rms, one.stall);
       one.held.stretch = std::min(one.held.stretch, one.stall);
@@ -134,8 +134,7 @@ std::vector<CheckKind> checks::stall() {
            "RMS over all the time at rest above half of the stall "
            "torque",
            CheckSpan::window, "actuator.stall_torque",
-           "a pose with less load, or a stronger motor; with efficiency_model: directional friction of the gear helps to hold",
-           judge}};
+           "a pose with less load, or a stronger motor; what friction and gear hold beyond that is not counted", judge}};
 }
 
 }  // namespace gaitlab::report
