@@ -115,14 +115,16 @@ std::string not_buildable(const Scenario& scenario, const Actuator* actuator, co
   }
   for (std::size_t j = 0; j < scenario.robot->joints.size(); ++j) {
     const double factor = motor_build(scenario.as_built, j).gear_friction;
+    if (!scenario.robot->joints[j].driven() || factor == 1) continue;
     if (motors[j].returns > 0) {
+      if (motors[j].load > 0) continue;
       const double share = load_of_efficiency(motors[j].load) / factor;
       return fmt::format(
           "gear_friction {:.4g} changes load_friction of {} from {:.4g} to {:.4g}; expected a factor below {:.4g}", factor,
           scenario.robot->joints[j].name, share, share * factor, 1 / share);
     }
     const double eta = motors[j].efficiency * motors[j].load;
-    if (!scenario.robot->joints[j].driven() || factor == 1 || (eta > 0 && motors[j].load > 0)) continue;
+    if (eta > 0) continue;
     const double lost = (1 - eta) / factor;  // lost share of the gear in the drawings
     const std::string wrong = fmt::format(
         "gear_friction {:.4g} changes the gear efficiency of {} from {:.4g} to {:.4g}; expected an efficiency above 0, ",

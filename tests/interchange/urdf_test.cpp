@@ -72,9 +72,8 @@ TEST(Urdf, HasOurMassesInertiasAndJointOrigins) {
       const double back_emf = motors.Ks[j] * motors.gear[j];
       EXPECT_NEAR(read.limits->velocity, motors.u_max[j] / back_emf, 1e-13 * read.limits->velocity) << joint.name;
       const double current = std::min(motors.i_max[j], motors.u_max[j] / motors.R[j]);
-      const double eta = motors.efficiency_model == actuators::EfficiencyModel::paper ? motors.efficiency[j]
-                                                                                      : 1;  // without gear losses at rest
-      EXPECT_NEAR(read.limits->effort, eta * motors.Kt[j] * motors.gear[j] * current, 1e-13 * read.limits->effort)
+      EXPECT_NEAR(read.limits->effort, motors.efficiency[j] * motors.Kt[j] * motors.gear[j] * current,
+                  1e-13 * read.limits->effort)
           << joint.name;
     }
   }
