@@ -108,6 +108,11 @@ LATER = {
     "torque sources, unstable": ("caterpillar", FAST + ["duration=2", "cpg.frequency=1.6", "actuator={type: torque}",
         "controller={type: pid, unit: N m, Kp: 2, Kd: 0.03}"]),
     "more power than any motor": ("caterpillar", FAST + ["duration=3.2", "cpg.frequency=1", "actuator.u_max=100", "actuator.i_max=20"]),
+    "friction": ("hexapod", FAST + ["duration=4", "cpg.frequency=1", "actuator.dry_friction=0.1", "actuator.viscous_friction=0.09"]),
+    "friction and directional gears": ("caterpillar", FAST + ["duration=4", "cpg.frequency=1", "actuator.dry_friction=0.2",
+        "actuator.efficiency_model=directional"]),
+    "held by friction": ("caterpillar", FAST + ["duration=3", "cpg.amplitude={default: 0, m2/active: 0.3}", "actuator.dry_friction=1"]),
+    "a worm with friction": ("library/ckbot-worm", ["duration=8", "actuator.dry_friction=0.06", "actuator.load_friction=0.2"]),
     "a supply above the sheet's": ("library/yamor-worm", ["duration=8", "actuator.u_max=8", "cpg.amplitude={default: 0, m2/hinge: 0.4}"]),
 }
 CPGS = ["sine", "hopf", "kuramoto_amplitude", "matsuoka", "phase_oscillator", "van_der_pol"]
