@@ -109,11 +109,13 @@ class Record:
         directional = a.get("efficiency_model") == "directional"
         with np.errstate(divide="ignore", invalid="ignore"):
             if kind == "dc_motor":
-                self.no_load = of("u_max") / (of("Ks") * of("gear"))
+                dry, viscous = np.nan_to_num(of("dry_friction")), np.nan_to_num(of("viscous_friction"))
+                drive = of("efficiency") * of("Kt") * of("gear") / of("R")
+                self.no_load = (drive * of("u_max") - dry) / (drive * of("Ks") * of("gear") + viscous)
                 current = np.minimum(of("u_max") / of("R"), of("i_max"))
                 self.at_rest = of("gear") * of("efficiency") * of("Kt") * current
                 self.stall = of("gear") * of("efficiency") * of("Kt") * of("u_max") / of("R")
-                held = self.at_rest / (of("efficiency") if directional else 1)
+                held = self.at_rest / (of("efficiency") if directional else 1) + dry
                 self.limited, self.i_max = self.driven.copy(), of("i_max")
                 self.torque_constant, self.speed_constant = of("efficiency") * of("Kt"), of("Ks")
                 self.makes_energy = self.driven & (self.torque_constant > self.speed_constant * (1 + 1e-9))
