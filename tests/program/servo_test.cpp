@@ -143,9 +143,9 @@ TEST(Servo, CreatesNoEnergy) {
   for (const std::string& servo : {kAx12, kSg92r, kSg92r + kBare}) {
     const auto motors = make_motors(scenario(worm(servo)));
     const DcMotor& m = motors->dc_motors()[0];
-    for (double u = -2; u <= 2; u += 0.25) {
-      for (double w = -2; w <= 2; w += 0.25) {
-        const DcMotor::Effort e = m(u * m.u_max, w * 5);
+    for (int u = -8; u <= 8; ++u) {
+      for (int w = -8; w <= 8; ++w) {
+        const DcMotor::Effort e = m(0.25 * u * m.u_max, 1.25 * w);
         EXPECT_GE(e.gear, -1e-14) << servo << " " << u << " " << w;  // rounding errors of powers of some W
       }
     }
