@@ -6,6 +6,7 @@
 #include "physics_articulated/motion.h"
 #include "physics_articulated/motors.h"
 #include "physics_articulated/solo.h"
+#include "physics_articulated/sticking.h"
 
 namespace gaitlab::articulated {
 
@@ -36,13 +37,11 @@ struct StepResult {
 template <class T>
 class Implicit {
  public:
-  static constexpr int kSolves = 100;               ///< largest number of solves in one step; most steps need 1
-  static constexpr double kTorqueTolerance = 1e-9;  ///< least share of the largest torque of a motor at rest
-  static constexpr double kShareOfAccuracy = 1e-3;  ///< share of the relative accuracy of the torques
-  static constexpr double kStopTolerance = 1e-9;    ///< N m
-  static constexpr double kRounding = 1e-11;        ///< relative rounding error of the torque of a passive hinge, due to q
-  static constexpr double kStill = 1e-12;           ///< rad/s; rounding error of the speed of a joint that sticks
-  static constexpr int kTogether = 10;              ///< solves after which only one joint at a time changes its mode
+  static constexpr int kSolves = 100;  ///< largest number of solves in one step; most steps need 1
+  static constexpr double kTorqueTolerance = Sticking<T>::kTolerance;  ///< least share of the largest torque of a motor at rest
+  static constexpr double kShareOfAccuracy = 1e-3;                     ///< share of the relative accuracy of the torques
+  static constexpr double kStopTolerance = 1e-9;                       ///< N m
+  static constexpr double kRounding = 1e-11;  ///< relative rounding error of the torque of a passive hinge, due to q
 
   Implicit(const Tree<T>& tree, const Environment<T>& environment, const Actuator* actuator,
            const LaneRange& lanes = {0, math::kLanes<T>})
@@ -55,7 +54,7 @@ class Implicit {
         tree_(tree),
         joints_(tree.lo.size()),
         place_(StateLayout::kAngles + 2 * joints_, T(0.0)),
-        locks_(joints_),
+        sticking_(motors, joints_),
         rests_(joints_),
         now_(joints_),
         next_(joints_) {
@@ -95,7 +94,8 @@ class Implicit {
       }
       open = math::mask_and(open, misses(x, command, h));
       if (!math::any_lane(open)) break;
-      if (motors.any_jump && change_modes(open, solve >= kTogether)) motors.linearise(command, end_);
+      if (motors.any_jump && sticking_.change(open, now_.torque, end_, solve >= Sticking<T>::kTogether, switched))
+        motors.linearise(command, end_);
       touch(open, x, h);
     }
     finish(x, h, which);
@@ -140,11 +140,11 @@ class Implicit {
       stop_[j] = stop_[j] + passive_[k];
     }
     if (!motors.any_jump) return accelerate(0);
-    std::ranges::fill(locks_.acceleration, T(0.0));
+    std::ranges::fill(sticking_.locks.acceleration, T(0.0));
     for (bool again = true; again;) {  // at most once per joint, because a joint that leaves does not return
       accelerate(0);
       again = false;
-      for (std::size_t j = 0; j < joints_; ++j) again = release(j) || again;
+      for (std::size_t j = 0; j < joints_; ++j) again = sticking_.release(j) || again;
     }
   }
   /// Adds friction at the state x to the motor torques `torque` (index joint * lanes + lane). A joint at rest has the torque
@@ -160,7 +160,7 @@ class Implicit {
     if (std::ranges::none_of(rests_, [](const auto& sticks) { return math::any_lane(sticks); })) return;
     evaluate(x, command);
     for (std::size_t j = 0; j < joints_; ++j) {
-      const T held = math::select(motors.sticks[j], locks_.torque[j], motors.law[j]);
+      const T held = math::select(motors.sticks[j], sticking_.locks.torque[j], motors.law[j]);
       for (std::size_t l = 0; l < math::kLanes<T>; ++l) {
         if (math::lane(math::select(rests_[j], T(1.0), T(0.0)), l) > 0) torque[j * math::kLanes<T> + l] = math::lane(held, l);
       }
@@ -185,16 +185,16 @@ class Implicit {
   }
 
   /// Computes next_.a from motors, stops and contacts with their tangents for a step h. Joints that stick have the
-  /// accelerations of locks_ instead of a motor torque.
+  /// given accelerations instead of a motor torque.
   void accelerate(double h) {
     for (std::size_t j = 0; j < joints_; ++j) {
       force_[j] = motors.torque[j] + stop_[j];
       diagonal_[j] = rotor[j] + (h > 0 ? T(h) * (motors.slope[j] + stop_slope_[j]) : T(0.0));
     }
-    if (motors.any_jump) lock(h);
+    if (motors.any_jump) sticking_.lock(stop_, stop_slope_, rotor, h, force_, diagonal_);
     body.solve(
         force_, diagonal_, next_.a, [&](std::size_t link, typename TreeBody<T>::Load load) { contacts.load(link, load, h); },
-        motors.any_jump ? &locks_ : nullptr);
+        motors.any_jump ? &sticking_.locks : nullptr);
   }
 
   [[nodiscard]] std::span<T> speeds(std::span<T> x) const { return x.subspan(StateLayout::kAngles + joints_, joints_); }
@@ -242,21 +242,13 @@ class Implicit {
     contacts.begin(h);
   }
 
-  void lock(double h) {
-    locks_.on = motors.sticks;
-    for (std::size_t j = 0; j < joints_; ++j) {
-      force_[j] = math::select(locks_.on[j], stop_[j], force_[j]);
-      diagonal_[j] = math::select(locks_.on[j], rotor[j] + (h > 0 ? T(h) * stop_slope_[j] : T(0.0)), diagonal_[j]);
-    }
-  }
-
   void solve(std::span<const T> x, double h) {
-    for (std::size_t j = 0; motors.any_jump && j < joints_; ++j) locks_.acceleration[j] = -speeds(x)[j] / T(h);
+    if (motors.any_jump) sticking_.stop(speeds(x), h);
     accelerate(h);
     contacts.solved(body, h);
     for (std::size_t j = 0; j < joints_; ++j) {
       next_.torque[j] = motors.torque[j] - T(h) * motors.slope[j] * next_.a[6 + j];
-      if (motors.any_jump) next_.torque[j] = math::select(motors.sticks[j], locks_.torque[j], next_.torque[j]);
+      if (motors.any_jump) next_.torque[j] = math::select(motors.sticks[j], sticking_.locks.torque[j], next_.torque[j]);
       next_.stop[j] = stop_[j] - T(h) * stop_slope_[j] * next_.a[6 + j];
     }
   }
@@ -329,16 +321,14 @@ class Implicit {
   /// solve. Sets missed_ to the number of joints whose motor or end stop differs.
   math::Mask<T> misses(std::span<const T> x, In command, double h) {
     for (std::size_t j = 0; j < joints_; ++j) end_[j] = speeds(x)[j] + T(h) * now_.a[6 + j];
-    if (motors.any_jump) come_to_rest(x);
+    if (motors.any_jump) sticking_.come_to_rest(speeds(x), end_);
     motors.linearise(command, end_);
     math::Mask<T> any = contacts.off(h);
     missed_ = T(0.0);
     for (std::size_t j = 0; j < joints_; ++j) {
       auto motor = math::abs(motors.law[j] - now_.torque[j]) > torque_tolerance_ * motors.scale[j];
-      if (motors.any_jump) {
-        const auto wrong = math::mask_or(math::mask_or(turns_back(j), leaves(j)), moves(j));
-        motor = math::mask_or(math::fresh(motor, motors.sticks[j]), wrong);
-      }
+      if (motors.any_jump)
+        motor = math::mask_or(math::fresh(motor, motors.sticks[j]), sticking_.contradicts(j, now_.torque, end_));
       // The rounding error of the torque of a passive spring may exceed the tolerance of a stop.
       const T allowed = tree_.passive.empty() ? T(kStopTolerance) : T(kStopTolerance) + T(kRounding) * math::abs(now_.stop[j]);
       const auto stop = math::abs(stopped(x, j, end_[j], h).torque - now_.stop[j]) > allowed;
@@ -347,58 +337,6 @@ class Implicit {
       any = math::mask_or(any, joint);
     }
     return any;
-  }
-
-  /// Lets a joint turn in evaluate() if more than its friction would be needed to hold it. Returns true if it did.
-  bool release(std::size_t j) {
-    const T& held = locks_.torque[j];
-    const T most = math::clamp(held, motors.below[j], motors.above[j]);
-    const auto leave = math::mask_and(motors.sticks[j], math::abs(held - most) > T(kTorqueTolerance) * motors.scale[j]);
-    motors.law[j] = math::select(leave, most, motors.law[j]);
-    motors.torque[j] = math::select(leave, most, motors.torque[j]);
-    motors.sticks[j] = math::fresh(motors.sticks[j], leave);
-    return math::any_lane(leave);
-  }
-  /// Removes the rounding error of the end speeds of joints that stick.
-  void come_to_rest(std::span<const T> x) {
-    for (std::size_t j = 0; j < joints_; ++j) {
-      const T still = T(kStill) * (T(1.0) + math::abs(speeds(x)[j]));
-      end_[j] = math::select(math::mask_and(motors.sticks[j], math::abs(end_[j]) <= still), T(0.0), end_[j]);
-    }
-  }
-  /// Lanes in which a joint that sticks is not at rest at the iterate, because a part of the way to the solve was taken.
-  [[nodiscard]] math::Mask<T> moves(std::size_t j) const {
-    return math::mask_and(motors.sticks[j], math::abs(end_[j]) > T(0.0));
-  }
-  /// Lanes in which a joint sticks at the iterate under a torque beyond its bounds.
-  [[nodiscard]] math::Mask<T> leaves(std::size_t j) const {
-    const T slack = T(kTorqueTolerance) * motors.scale[j];
-    const auto beyond = math::mask_or(now_.torque[j] > motors.above[j] + slack, now_.torque[j] < motors.below[j] - slack);
-    return math::fresh(math::mask_and(motors.sticks[j], beyond), moves(j));
-  }
-  /// Lanes in which a joint turns against its side at the iterate.
-  [[nodiscard]] math::Mask<T> turns_back(std::size_t j) const {
-    const auto back = math::mask_and(motors.jumps[j], motors.side[j] * end_[j] < T(0.0));
-    return math::fresh(back, motors.sticks[j]);
-  }
-
-  /// Changes the modes that contradict the iterate in the lanes `which`, after misses(): of all joints of a lane, or, if `one`,
-  /// of the first, which cannot cycle in a linear problem (the least-index rule of Murty, 1974). Returns true if a mode
-  /// changed.
-  bool change_modes(const math::Mask<T>& which, bool one) {
-    math::Mask<T> may = which;
-    math::Mask<T> any{};
-    for (std::size_t j = 0; j < joints_; ++j) {
-      const auto leave = math::mask_and(may, leaves(j));
-      const auto stick = math::mask_and(may, turns_back(j));
-      motors.side[j] = math::select(leave, math::select(now_.torque[j] > motors.above[j], T(-1.0), T(1.0)), motors.side[j]);
-      motors.sticks[j] = math::mask_or(stick, math::fresh(motors.sticks[j], leave));
-      const auto changed = math::mask_or(leave, stick);
-      any = math::mask_or(any, changed);
-      if (one) may = math::fresh(may, changed);
-    }
-    switched = math::mask_or(switched, any);
-    return math::any_lane(any);
   }
 
   /// Sets the tangents of all laws at the iterate in the lanes `which`, after misses(). Laws within their tolerance are
@@ -502,7 +440,7 @@ class Implicit {
   std::size_t joints_;
   std::vector<T> passive_;  ///< torques of passive hinges, set by evaluate()
   std::vector<T> place_, stop_, stop_slope_, force_, diagonal_, end_;
-  Locks<T> locks_;                    ///< joints that stick
+  Sticking<T> sticking_;
   std::vector<math::Mask<T>> rests_;  ///< joints at rest in add_friction()
   Iterate now_, next_;
   T missed_ = 0.0;

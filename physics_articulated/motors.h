@@ -50,12 +50,11 @@ class StepMotors {
     take_friction(lanes);
     if (actuator->dc_motors() != nullptr) dc_.resize(joints);
     take(passive, lanes);
-    find_jumps();
   }
 
   /// Takes the constants of DC motors from the actuator.
   void take(std::span<const std::size_t> passive, const LaneRange& lanes) {
-    if (dc_.empty()) return;
+    if (dc_.empty()) return find_jumps();
     const DcMotor* from = actuator_->dc_motors() + lanes.first;
     constexpr auto kTo = BasicDcMotor<T>::constants();
     constexpr auto kFrom = DcMotor::constants();

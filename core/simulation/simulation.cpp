@@ -275,6 +275,8 @@ void Simulation::advance(double h, const std::function<bool(const Lane&)>& measu
   const Scenario& first = scenarios_[0];
   const bool creeps = first.physics.integrator->limited && first.contact.law == ContactLaw::penalty;
   const StepEffort applied = plant_->applied();
+  const std::span<const JointFriction> friction =
+      actuator_ == nullptr ? std::span<const JointFriction>() : actuator_->friction();
   const std::size_t lanes = lanes_.size();
   for (std::size_t l = 0; l < recorded_; ++l) measured_[l] = measured(*lanes_[l]) ? 1 : 0;
   for (const StepEffort::Part& of_all : applied.parts) {
@@ -288,8 +290,6 @@ void Simulation::advance(double h, const std::function<bool(const Lane&)>& measu
         first_.of(Out(voltage_), FirstLanes::voltage),       first_.of(Out(current_), FirstLanes::current),
         first_.of(Out(saturation_), FirstLanes::saturation), first_.of(Out(power_in_), FirstLanes::power_in),
         first_.of(Out(copper_), FirstLanes::copper),         first_.of(Out(gear_), FirstLanes::gear)};
-    const std::span<const JointFriction> friction =
-        actuator_ == nullptr ? std::span<const JointFriction>() : actuator_->friction();
     for (std::size_t i = 0; i < friction.size(); ++i) dry_[i] = power_lost(friction[i], of_all.speed[i], creeps);
     const bool peaks = part.instant || std::ranges::any_of(part.share, [](double share) { return share > 0; });
     meter_.add(time(), part, first_.of(setpoint_, FirstLanes::setpoint), electrical, first_.of(In(dry_), FirstLanes::dry),
