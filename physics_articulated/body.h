@@ -72,8 +72,8 @@ class TreeBody {
   };
 
   /// Computes v' in `out` (6 + joints entries). `torque` (N m) and `diagonal` (kg m^2) have one entry per joint. loads(link,
-  /// Load) is called once per link, from the last link to the first. `locks` may be null. Locked joints belong to the recursion
-  /// and need no equations of their own.
+  /// Load) is called once per link, from the last link to the first. `locks` may be null. Locked joints are part of the
+  /// recursion, without further equations.
   template <class Loads>
   void solve(std::span<const T> torque, std::span<const T> diagonal, std::span<T> out, Loads loads, Locks<T>* locks = nullptr) {
     for (std::size_t i = links_.size(); i-- > 1;) {

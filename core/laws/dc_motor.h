@@ -61,7 +61,7 @@ struct BasicDcMotor {
 
   /// A gear that jumps has the factor 1 at rest, between those of both sides.
   [[nodiscard]] Effort operator()(const V& command, const V& speed) const { return on(sign(speed), command, speed); }
-  /// Effort by the law of one side of a jump, 1 (w >= 0) or -1 (w <= 0), which goes on past rest.
+  /// Effort by the law of one side of a jump, 1 (w >= 0) or -1 (w <= 0), continued past rest.
   [[nodiscard]] Effort on(const V& side, const V& command, const V& speed) const { return at(side, command, speed, i_max); }
   /// Effort without the current limit.
   [[nodiscard]] Effort unlimited(const V& command, const V& speed) const {

@@ -9,7 +9,7 @@
 namespace gaitlab {
 
 /// Friction law for explicit methods:
-///     T = -dry tanh(w / kCreep) - viscous w        (docs/equations.md, 2)
+///     T = -dry tanh(w / kCreep) - viscous w        (docs/equations.md, 3)
 /// w: joint speed, rad/s; T: torque on the joint, N m. A law that jumps at w = 0 would make such a method chatter. A joint that
 /// should stick creeps instead, at less than kCreep. Methods that are implicit in the motors have the exact law
 /// (JointFriction). T: double or lanes.

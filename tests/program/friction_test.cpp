@@ -90,7 +90,7 @@ TEST_P(Friction, StopsARotorAtTheTimeOfTheClosedForm) {
   EXPECT_EQ(record.joints[0].dry, record.ledger.dry);
 }
 
-/// A half swing loses F (|q1| + |q2|) of the pendulum's energy; it comes to rest where friction holds the weight.
+/// A half swing loses F (|q1| + |q2|) of the pendulum's energy; it rests where friction holds the weight.
 TEST_P(Friction, StopsAPendulumExactly) {
   constexpr double kDry = 0.3;
   Rod rod{GetParam(), fmt::format("{{type: torque, dry_friction: {}}}", kDry)};
@@ -198,6 +198,7 @@ TEST_P(Friction, TheLedgerHasTheWorkOfACreep) {
   const Recording record = run(rod.read());
   EXPECT_LT(end(record, "joint.0.angle"), 0.3) << "it creeps";
   EXPECT_GT(record.ledger.dry, 0.05);
+  // Order 4 at h lambda of 6e-3; works are of the speeds at the starts of steps, to h over the time of the creep.
   EXPECT_LT(std::abs(record.ledger.residual()), 1e-3 * record.ledger.dry);
 }
 
@@ -226,6 +227,7 @@ TEST_P(Friction, BreaksAwayAtTheBoundsOfTheGear) {
     EXPECT_LT(row, record.trace.rows());
     return 3 * (table.at(row - 1, "joint.0.setpoint") - rod.angle);  // N m
   };
+  // A control period is 2e-4 N m of the motor; the row before the first that moves is one or two periods early.
   EXPECT_NEAR(breaks(0.2), (weight + kDry) / eta, 2e-3 * weight) << "lifts";
   EXPECT_NEAR(breaks(-0.2), (weight - kDry) * eta, 2e-3 * weight) << "is driven";
 }
@@ -238,6 +240,8 @@ TEST(FrictionInBulletsSolver, HoldsAnArm) {
   rod.physics = "step: 1e-3";
   rod.duration = 1;
   const Recording record = run(rod.read({"contact.law=bullet", "trace.columns=[joint.*]"}));
+  // The row of the solver is linear below 1e-5 rad/s: at most 1e-5 rad in a second. Its iteration ends at some 1e-3 of a
+  // torque.
   EXPECT_NEAR(end(record, "joint.0.angle"), 0.3, 1e-4);
   EXPECT_NEAR(end(record, "joint.0.torque"), kWeight * std::sin(0.3), 0.01 * kWeight);
 }
