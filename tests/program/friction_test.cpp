@@ -7,6 +7,7 @@
 #include "tests/labels.h"
 #include "tests/program/bits.h"
 #include "tests/program/engines.h"
+#include "tests/program/rod.h"
 #include "tests/validation.h"
 
 namespace gaitlab::test {
@@ -23,19 +24,7 @@ struct Rod {
   double angle = 0, speed = 0, duration = 4, row = 0.005;
   std::string more = {};
   [[nodiscard]] Scenario read(const std::vector<std::string>& sets = {}) const {
-    return scenario(fmt::format(R"(
-gaitlab: 1
-robot:
-  base: fixed
-  position: [0, 0, 2]
-  modules:
-    gaitlab_module: 1
-    name: driven-rod
-    bodies:
-      support: {{mass: 1, inertia: [1, 1, 1, 0, 0, 0]}}
-      rod: {{mass: 1, com: [0, 0, -0.5], inertia: [0.083333333333333333, 0.083333333333333333, 1e-3, 0, 0, 0]}}
-    hinges:
-      - {{name: swing, parent: support, child: rod, axis: [0, 1, 0], range: free}}
+    return scenario(rod() + fmt::format(R"(
 initial: {{angles: {}, speeds: {}}}
 ground: {{type: none}}
 contact: {{on: none}}
@@ -46,7 +35,7 @@ duration: {}
 trace: {{period: {}, columns: [joint.*, energy.*, steps.*]}}
 {}
 )",
-                                angle, speed, motor, controller, engine, gravity, physics, duration, row, more),
+                                        angle, speed, motor, controller, engine, gravity, physics, duration, row, more),
                     sets);
   }
 };

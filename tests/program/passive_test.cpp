@@ -7,6 +7,7 @@
 #include "interchange/urdf.h"
 #include "tests/messages.h"
 #include "tests/program/engines.h"
+#include "tests/program/rod.h"
 #include "tests/validation.h"
 
 namespace gaitlab::test {
@@ -19,19 +20,7 @@ struct Rod {
   std::string engine, drive, physics = "integrator: rk4, step: 1e-4", angle = "1e-3", gravity = "[0, 0, -9.81]", contact = {};
   double duration = 4;
   [[nodiscard]] Scenario read(const std::vector<std::string>& sets = {}) const {
-    return scenario(fmt::format(R"(
-gaitlab: 1
-robot:
-  base: fixed
-  position: [0, 0, 2]
-  modules:
-    gaitlab_module: 1
-    name: sprung-rod
-    bodies:
-      support: {{mass: 1, inertia: [1, 1, 1, 0, 0, 0]}}
-      rod: {{mass: 1, com: [0, 0, -0.5], inertia: [0.083333333333333333, 0.083333333333333333, 1e-3, 0, 0, 0]}}
-    hinges:
-      - {{name: swing, parent: support, child: rod, axis: [0, 1, 0], range: free, drive: none, {}}}
+    return scenario(rod(", drive: none, " + drive) + fmt::format(R"(
 initial: {{angles: {}}}
 ground: {{type: none}}
 contact: {{on: none{}}}
@@ -39,7 +28,7 @@ physics: {{engine: {}, {}, gravity: {}}}
 duration: {}
 trace: {{period: 0.005, columns: [joint.*, energy.*]}}
 )",
-                                drive, angle, contact, engine, physics, gravity, duration),
+                                                                 angle, contact, engine, physics, gravity, duration),
                     sets);
   }
 };
