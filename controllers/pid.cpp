@@ -33,6 +33,15 @@ void Pid::Settings::fields(Fields& f) {
 
 void Pid::start(Out x) const { std::fill(x.begin(), x.end(), 0.0); }
 
+std::vector<PositionGains> Pid::gains() const {
+  std::vector<PositionGains> all;
+  for (std::size_t j = 0; j < joints_; ++j) {
+    all.push_back(
+        {.P = s_.Kp[j], .I = s_.Ki[j], .D = s_.Kd[j], .N = s_.N[j], .unit = s_.unit == Unit::volt ? "V/rad" : "N m/rad"});
+  }
+  return all;
+}
+
 void Pid::update(const Measured& m, In setpoint, In limit, Out x, Out command) const {
   const bool first = x[0] == 0;
   x[0] = 1;

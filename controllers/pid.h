@@ -20,6 +20,7 @@ class Pid final : public Controller {
   /// Number of states: a flag that the first tick sets, then I, D, e and u of the last tick for every joint.
   [[nodiscard]] std::size_t states() const override { return 1 + 4 * joints_; }
   void start(Out x) const override;
+  [[nodiscard]] std::vector<PositionGains> gains() const override;
   void update(const Measured& measured, In setpoint, In command_limit, Out x, Out command) const override;
 
  private:

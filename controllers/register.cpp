@@ -2,11 +2,13 @@
 
 #include "controllers/hold.h"
 #include "controllers/pid.h"
+#include "controllers/rc_servo.h"
 
 namespace gaitlab::controllers {
 
 void register_controllers(Registry& registry) {
   add_controller<Pid>(registry, "pid", Pid::kManual);
+  add_controller<RcServo>(registry, "rc_servo", RcServo::kManual);
   add_controller<Hold>(registry, "hold", Hold::kManual);
 }
 

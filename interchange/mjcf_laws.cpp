@@ -67,22 +67,6 @@ double standing_depth(const Scenario& s) {
   return press(s, elements, k, hi).depth;
 }
 
-/// Gains of controller `pid`, found among its settings by their keys.
-class PidGains final : public Fields {
- public:
-  void visit(const Field& field) override {
-    const auto* each = std::get_if<field::EachJoint>(&field.value);
-    if (each == nullptr) return;
-    const std::string_view key = field.key;
-    if (key == "Kp") kp = each->value;
-    if (key == "Ki") ki = each->value;
-    if (key == "Kd") kd = each->value;
-  }
-  void problem_at(const char*, std::string_view, std::size_t, std::string_view) override {}
-
-  PerJoint kp, ki, kd;
-};
-
 }  // namespace
 
 InverseWeights inverse_weights(const Scenario& s, const std::vector<MotorLimits>& limits) {
@@ -141,15 +125,21 @@ Drives drives(const Scenario& s) {
   }
   Drives out;
   out.command_unit = actuator->command_unit();
-  PidGains gains;
-  out.by_set_points = s.controller.entry != nullptr && std::string_view(s.controller.entry->name) == "pid";
-  if (out.by_set_points) visit_settings(*s.controller.entry, s.controller.settings.get(), gains);
+  const std::unique_ptr<Controller> controller = make_controller(s.controller, plugin_info(s));
+  const std::vector<PositionGains> gains = controller == nullptr ? std::vector<PositionGains>() : controller->gains();
+  const bool duty = controller != nullptr && controller->command_unit() == "duty";
+  out.by_set_points = !gains.empty();
   for (std::size_t j = 0; j < joints; ++j) {
     const double c = torque[j] / kSmall;
-    out.joints.push_back(out.by_set_points ? GainAndBias{c * gains.kp[j], c * gains.kp[j], c * gains.kd[j] + slope[j]}
-                                           : GainAndBias{c, 0, slope[j]});
-    out.integral = out.integral || gains.ki[j] != 0;
-    out.derivative = out.derivative || gains.kd[j] != 0;
+    if (!out.by_set_points) {
+      out.joints.push_back({c, 0, slope[j]});
+      continue;
+    }
+    const double volts = duty ? (s.supply.any() ? s.supply.voltage : actuator->command_limit()[j]) : 1;
+    const double stiffness = c * volts * gains[j].P;
+    out.joints.push_back({stiffness, stiffness, c * volts * gains[j].D + slope[j]});
+    out.integral = out.integral || gains[j].I != 0;
+    out.derivative = out.derivative || gains[j].D != 0;
   }
   return out;
 }

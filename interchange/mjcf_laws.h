@@ -51,8 +51,8 @@ struct GainAndBias {
   double stiffness = 0;  ///< N m/rad
   double damping = 0;    ///< N m s/rad
 };
-/// Drives of the joints, with the law of the motors linearised about rest, T = c u - B w. With controller `pid`, controls are
-/// set points, rad: u = Kp (ctrl - q) - Kd w. Otherwise controls are the motors' commands.
+/// Drives of the joints, with the law of the motors linearised about rest, T = c u - B w. If the controller has
+/// PositionGains, controls are set points, rad: u = Kp (ctrl - q) - Kd w. Otherwise controls are the motors' commands.
 struct Drives {
   std::vector<GainAndBias> joints;  ///< empty without an actuator
   bool by_set_points = false;

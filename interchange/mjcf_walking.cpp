@@ -155,12 +155,12 @@ std::string MjcfWalking::motor_comment() const {
         name(s_.actuator), drives_.command_unit, name(s_.controller));
   }
   std::string out = fmt::format(
-      " Controls are set points, rad (columns setpoint of the trace). Torque = c Kp (ctrl - q) - (c Kd + B) w: controller pid "
+      " Controls are set points, rad (columns setpoint of the trace). Torque = c Kp (ctrl - q) - (c Kd + B) w: controller {} "
       "and "
       "the law T = c u - B w of actuator {}, linearised about rest, within its torque at rest under the largest command. Not "
       "in this file: "
       "the control period of {} s",
-      name(s_.actuator), number_text(s_.control_period));
+      name(s_.controller), name(s_.actuator), number_text(s_.control_period));
   if (drives_.derivative) out += ", the filter of D, and D of the set point";
   if (drives_.integral) out += ", Ki";
   return out + ", the command limit, and whatever else makes the actuator's law nonlinear.";

@@ -154,7 +154,10 @@ std::string explain_name(const std::string& name, Catalog& catalog) {
 std::string explain_word(const std::string& word, Catalog& catalog) {
   const auto* const whole = std::ranges::find(kWhole, word, &WholeManual::name);
   if (whole != std::end(kWhole)) return whole->text(catalog);
-  if (const ListedKind* kind = listed_kind(word)) return explain_kind(*kind, catalog);
+  if (const ListedKind* kind = listed_kind(word)) {  // `servo` is also the name of an actuator
+    const std::string manual = explain_name(word, catalog);
+    return (manual.empty() ? "" : manual + "\n") + explain_kind(*kind, catalog);
+  }
   if (std::string text = explain_name(word, catalog); !text.empty()) return text;
   if (std::string text = explain_everywhere(word, catalog); !text.empty()) return text;
   if (const std::optional<FileKind> kind = kind_of_file(word)) {

@@ -66,14 +66,14 @@ int reference(const ManualArguments& arguments) {
 }  // namespace
 
 void add_manuals(Commands& commands) {
-  add_command<ManualArguments>(commands, "list",
-                               "List the names of each kind: cpg, controller, actuator, sensor, engine, module, robot, figure, "
-                               "check, scenario and study.",
-                               list, [](CLI::App& command, ManualArguments& arguments) {
-                                 offering(command.add_option("KIND", arguments.kind), "list only this kind of {}",
-                                          {.kinds = {""}, .files = false});
-                                 add_plugins(command, arguments);
-                               });
+  add_command<ManualArguments>(
+      commands, "list",
+      "List the names of each kind: cpg, controller, actuator, sensor, engine, module, servo, robot, figure, "
+      "check, scenario and study.",
+      list, [](CLI::App& command, ManualArguments& arguments) {
+        offering(command.add_option("KIND", arguments.kind), "list only this kind of {}", {.kinds = {""}, .files = false});
+        add_plugins(command, arguments);
+      });
   add_command<SchemaArguments>(
       commands, "schema", "Print the JSON Schema of the scenario file, for editors.", schema,
       [](CLI::App& command, SchemaArguments& arguments) {

@@ -101,6 +101,7 @@ std::vector<ListedKind> all_kinds() {
     return module_manual(shipped_file("module", name), catalog);
   };
   all.push_back(std::move(modules));
+  all.push_back(of_files("servo", "servos", false));
   all.push_back(of_files("robot", "robots", true));
   all.push_back({"figure", "figures", [](const Catalog&) { return to_strings(report::panel_names()); },
                  [](const std::string& name, Catalog&) { return first_line(report::panel_kind(name).about); },

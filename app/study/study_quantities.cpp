@@ -17,7 +17,7 @@ namespace {
 constexpr std::string_view kMargin = "margin.";
 
 /// Checks that have no number, or whose number cannot have another limit.
-constexpr std::array kUnlimited{"outcome", "battery", "evidence", "field"};
+constexpr std::array kUnlimited{"outcome", "evidence", "field"};
 
 bool limited(const report::CheckKind& kind) {
   return std::ranges::find(kUnlimited, std::string_view(kind.id)) == kUnlimited.end();

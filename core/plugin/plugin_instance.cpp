@@ -83,6 +83,9 @@ class GuardedController final : public Controller {
   void update(const Measured& m, In setpoint, In limit, Out x, Out command) const override {
     guarded(entry_, "update", [&] { controller_->update(m, setpoint, limit, x, command); });
   }
+  [[nodiscard]] std::vector<PositionGains> gains() const override {
+    return guarded(entry_, "gains", [&] { return controller_->gains(); });
+  }
 
  private:
   const Entry& entry_;

@@ -72,6 +72,7 @@ struct RobotInfo {
   std::vector<ModuleInfo> modules;
   std::vector<BodyInfo> bodies = {};
   std::vector<std::string> channels = {};  ///< names of the sensors' values in Measured::channels, such as `imu.gyro_x`
+  double control_period = 0;               ///< s, as Measured::period
 };
 
 }  // namespace gaitlab

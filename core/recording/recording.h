@@ -77,6 +77,10 @@ struct Recording {
   /// Verdicts on this run in the first row, and on draws with other seeds in the other rows (report/verdict/draws.h). It has no
   /// columns without draws.
   Trace draws;
+  /// Bus of a scenario with a supply, with the times of `ticks`: the least voltage and the largest current at the control ticks
+  /// since the previous row, 0 in `held` if no voltage satisfied its law at one of them, and, from t = 0, the charge drawn and
+  /// the integral of current^2. It has no columns without a supply.
+  Trace supply;
   double current_peak = NAN, current_rms = NAN;  ///< A, of the sum of all motors' |current|; NaN if no currents are known
   std::vector<JointStatistics> joints;           ///< empty if the robot has no joints
   Ledger ledger;                                 ///< energies at the end
@@ -130,11 +134,15 @@ std::optional<AllRows> thin_rows(Recording& r, std::size_t most = kMostInMemory)
 /// Columns of Recording::ticks and of Recording::poses for `joints` joints.
 std::vector<Column> tick_columns(std::size_t joints);
 std::vector<Column> pose_columns(std::size_t joints);
+/// Columns of Recording::supply after the column t.
+enum SupplyColumn : std::size_t { kLeastVoltage = 1, kLargestCurrent, kHeld, kCharge, kBusSquare };
+std::vector<Column> supply_columns();
 /// Merges each pair of rows after the first row into the later one, with the larger peaks of both.
 void halve_ticks(Trace& ticks);
 /// Merges each pair of rows after the first row into the later one by keep_worst().
 void halve_rows(Trace& table);
-/// Copies the larger dock loads and the smaller stability margin of the previous row into `now`. Tension is signed, and the
+/// Copies the larger dock loads, the smaller stability margin, and the lower voltage and larger current of the bus of the
+/// previous row into `now`. Tension is signed, and the
 /// margin is NaN while nothing touches the ground.
 void keep_worst(const ColumnList& columns, In before, Out now);
 

@@ -112,6 +112,7 @@ std::vector<BesideOf> tables(const Recording& r, const NumberTables& numbers) {
                             {"poses", &r.poses}, {"joints", &numbers.joints}, {"run", &numbers.run}};
   if (r.spread.rows() > 0) all.push_back({"spread", &r.spread});
   if (r.draws.rows() > 0) all.push_back({"draws", &r.draws});
+  if (r.supply.rows() > 0) all.push_back({"supply", &r.supply});
   return all;
 }
 
@@ -161,6 +162,7 @@ void take_tables(const fs::path& file, std::vector<Beside>& beside, Recording& r
   r.poses = take("poses");
   if (find("spread") != beside.end()) r.spread = take("spread");
   if (find("draws") != beside.end()) r.draws = take("draws");
+  if (find("supply") != beside.end()) r.supply = take("supply");
   const Trace joints = take("joints");
   const Trace run = take("run");
   take_numbers(file, joints, run, r);

@@ -7,6 +7,7 @@
 
 #include "core/files/file_kind.h"
 #include "core/robot_files/module_file.h"
+#include "core/robot_files/servo_file.h"
 #include "core/settings/data_folder.h"
 #include "core/settings/text_file.h"
 #include "core/settings/wording.h"
@@ -144,10 +145,12 @@ std::optional<std::size_t> TypeLibrary::read_file(const std::string& path, const
 
 std::optional<std::size_t> TypeLibrary::read(const Node& document, bool versioned, Problems& problems) {
   const std::size_t before = problems.size();
-  ModuleType type = read_module(document, versioned, problems);
+  Node whole = document;
+  insert_servos(whole, folder_, problems);
+  ModuleType type = read_module(whole, versioned, problems);
   if (problems.size() != before) return {};
   types.push_back(std::move(type));
-  documents.push_back(document);
+  documents.push_back(std::move(whole));
   return types.size() - 1;
 }
 

@@ -12,12 +12,16 @@ namespace gaitlab {
 
 namespace {
 
-/// Finds the joints without a value of `i_max`, whose current limit the actuator takes from the current at stall.
+/// Finds the joints without a value of `i_max`, whose current limit the actuator takes from the current at stall, and those
+/// without `u_max`, which take the voltage of their data sheet, or that of the scenario's supply.
 struct DerivedLimits final : Fields {
-  PerJoint i_max{1};
+  PerJoint i_max{1}, u_max{1};
   void visit(const Field& field) override {
     const auto* each = std::get_if<field::EachJoint>(&field.value);
-    if (each != nullptr && std::string_view(field.key) == "i_max") i_max = each->value;
+    if (each == nullptr) return;
+    const std::string_view key = field.key;
+    if (key == "i_max") i_max = each->value;
+    if (key == "u_max") u_max = each->value;
   }
   void problem_at(const char*, std::string_view, std::size_t, std::string_view) override {}
 };
@@ -69,6 +73,7 @@ class BuiltMotors final : public MotorBank {
         const MotorBuild build = motor_build(lanes[l]->as_built, j);
         DcMotor motor = drawn.dc_motors()[i];
         if (motor.reversal_speed > 0 && implicit(*lanes[l])) motor = with_jump(motor);
+        if (const double supply = lanes[l]->supply.voltage; supply > 0 && !(limits[l].u_max[j] > 0)) motor.u_max = supply;
         add(build == MotorBuild() ? motor : built(motor, build, !(limits[l].i_max[j] > 0)), inertia.empty() ? 0 : inertia[i],
             ratings.empty() ? DriveRatings() : ratings[i], friction.empty() ? JointFriction() : built(friction[i], build));
       }
@@ -93,7 +98,8 @@ std::unique_ptr<Actuator> make_motors(std::span<const Scenario* const> lanes) {
   std::vector<const PluginSelection*> selections;
   for (const Scenario* lane : lanes) selections.push_back(&lane->actuator);
   std::unique_ptr<Actuator> drawn = make_actuator(selections, info(*lanes[0]->robot));
-  const bool differ = std::ranges::any_of(lanes, [](const Scenario* lane) { return motors_differ(lane->as_built); });
+  const bool differ =
+      std::ranges::any_of(lanes, [](const Scenario* lane) { return motors_differ(lane->as_built) || lane->supply.any(); });
   if (drawn == nullptr || drawn->dc_motors() == nullptr) return drawn;
   const std::span<const DcMotor> motors(drawn->dc_motors(), lanes[0]->robot->joints.size() * lanes.size());
   const bool jump = implicit(*lanes[0]) && std::ranges::any_of(motors, [](const DcMotor& m) { return m.reversal_speed > 0; });

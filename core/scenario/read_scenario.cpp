@@ -12,6 +12,7 @@
 #include "core/files/file_kind.h"
 #include "core/plugin/plugin_instance.h"
 #include "core/robot_files/body_pair_list.h"
+#include "core/robot_files/servo_file.h"
 #include "core/robot_files/type_presets.h"
 #include "core/scenario/built_robot.h"
 #include "core/scenario/change_section.h"
@@ -62,6 +63,7 @@ class ScenarioReader {
     attempt([&] {
       for (std::string& note : drop_old_keys(root_, retyped, catalog_)) add_note(std::move(note));
     });
+    insert_servos(root_, folder_, problems_);
     tell_dropped_keys(sets);
     read_name(head);
     read_body();
@@ -85,6 +87,7 @@ class ScenarioReader {
     if (sets.empty()) return scenario_;
     ScenarioReader own = *this;
     apply_sets(own.root_, sets, own.problems_);
+    insert_servos(own.root_, own.folder_, own.problems_);
     own.raise();
     own.tell_dropped_keys(sets);
     own.touched_ = TouchedSections(sections_of(sets));
@@ -196,7 +199,7 @@ class ScenarioReader {
     if (reads("sensors")) scenario_.sensors = read_sensors(root_.find("sensors"), scenario_, catalog_, joints, problems_);
     if (!given(root_, "trace", "columns")) scenario_.trace.columns = default_columns(scenario_);
     const auto concerns = [&](const char* section) { return reads(section); };
-    constexpr std::array kOfPlugins{"physics", "contact", "actuator", "controller", "cpg", "sensors"};
+    constexpr std::array kOfPlugins{"physics", "contact", "supply", "actuator", "controller", "cpg", "sensors"};
     if (std::ranges::any_of(kOfPlugins, concerns)) make_plugins(sections);
   }
 
@@ -329,7 +332,10 @@ class ScenarioReader {
       ScenarioChecks checks(root_, scenario_, catalog_, problems_);
       if (actuator && controller) checks.units(*actuator, *controller);
       if (actuator) checks.rotors(*actuator);
-      if (sections.actuator.sound) checks.built_numbers(actuator.get());
+      if (sections.actuator.sound) {
+        checks.built_numbers(actuator.get());
+        checks.supply(actuator.get());
+      }
     });
   }
 

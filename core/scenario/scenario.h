@@ -19,6 +19,19 @@
 
 namespace gaitlab {
 
+/// Battery or power supply that all motors share (docs/equations.md, 3). Without one, `voltage` is 0.
+struct Supply {
+  double voltage = 0;        ///< open-circuit voltage, V
+  double resistance = 0;     ///< of battery and wires, ohm
+  double current = 0;        ///< largest current, A; 0: not stated
+  double capacity = 0;       ///< A h; 0: not stated
+  double least = 0;          ///< voltage below which the electronics stop, V; 0: not stated
+  bool regenerates = false;  ///< true if the battery takes up the current of motors that brake
+  [[nodiscard]] bool any() const { return voltage > 0; }
+  bool operator==(const Supply&) const = default;
+  void fields(Fields& f);
+};
+
 struct Initial {
   PerJoint angles, speeds;                    ///< rad, rad/s
   Vec3 base_velocity = Vec3::Zero();          ///< velocity of the base frame's origin, world axes, m/s
@@ -173,10 +186,12 @@ struct Scenario {
   Ground ground;
   ContactSettings contact;
   PluginSelection actuator, controller, cpg;
-  std::string actuator_source;    ///< origin of the values in the section `actuator`; empty if not stated
-  double control_period = 0.015;  ///< s
-  double cpg_step = 0;            ///< sub-step of the CPG's RK4 integration, s
-  double duration = 0;            ///< s
+  Supply supply;
+  std::vector<double> duty_volts;  ///< voltage of duty 1 by joint, if it is not that of the supply or the motors; not a setting
+  std::string actuator_source;     ///< origin of the values in the section `actuator`; empty if not stated
+  double control_period = 0.015;   ///< s
+  double cpg_step = 0;             ///< sub-step of the CPG's RK4 integration, s
+  double duration = 0;             ///< s
   TraceSettings trace;
   FigureSettings figure;
   Limits limits;

@@ -217,6 +217,7 @@ void ScenarioChecks::automatic_step() {
 void ScenarioChecks::units(const Actuator& actuator, const Controller& controller) {
   const std::string_view command = controller.command_unit();
   if (command.empty() || command == actuator.command_unit()) return;
+  if (command == "duty" && actuator.dc_motors() != nullptr) return;
   const std::string_view taker = scenario_.actuator.entry->name;
   const std::string_view giver = scenario_.controller.entry->name;
   const bool chosen = given(root_, "controller").has_value();
@@ -231,6 +232,14 @@ void ScenarioChecks::units(const Actuator& actuator, const Controller& controlle
   }
   problem.notes.emplace_back(place_of(root_, "actuator", "type"),
                              fmt::format("actuator '{}' takes {}", taker, actuator.command_unit()));
+}
+
+void ScenarioChecks::supply(const Actuator* actuator) {
+  if (!scenario_.supply.any() || (actuator != nullptr && actuator->dc_motors() != nullptr)) return;
+  const std::string instead =
+      actuator == nullptr ? "the robot has no motors"
+                          : fmt::format("actuator '{}' takes {}", scenario_.actuator.entry->name, actuator->command_unit());
+  problems_.add(place_of(root_, kSupplySection, "voltage"), "supply needs motors that take V, but " + instead);
 }
 
 void ScenarioChecks::rotors(const Actuator& actuator) {

@@ -31,6 +31,8 @@ class ScenarioChecks {
   void automatic_step();
   /// Checks that controller and actuator use the same unit for commands.
   void units(const Actuator& actuator, const Controller& controller);
+  /// Refuses a supply of actuators (nullptr for none) that are not DC motors.
+  void supply(const Actuator* actuator);
   /// Refuses rotor inertia if the engine cannot add it. The message names the engines that can.
   void rotors(const Actuator& actuator);
   /// Refuses differences of motor constants that the actuator (nullptr for none) does not use, and of friction that the contact

@@ -55,6 +55,20 @@ void BaseFields::fields(Fields& f) {
   f.vector("orientation", span_of(scenario.orientation), {"rad", -100, 100, "Start of the base frame: roll, pitch, yaw."});
 }
 
+void Supply::fields(Fields& f) {
+  f.number("voltage", voltage, {"V", 0, 1e6, "Open-circuit voltage; required."});
+  f.number("resistance", resistance, {"ohm", 0, 1e6, "Resistance of battery and wires."});
+  f.number("current", current, {"A", 0, 1e6, "Largest continuous current, which check battery compares; 0: not stated."});
+  f.number("capacity", capacity, {"A h", 0, 1e6, "Charge of the full battery; 0: not stated."});
+  f.number("least", least, {"V", 0, 1e6, "Voltage below which the electronics stop; 0: not stated."});
+  f.flag("regenerates", regenerates, "True if the battery takes up the current of motors that brake.");
+  if (!any() && *this != Supply()) {
+    f.problem("voltage", "supply has no voltage; expected supply.voltage, the open-circuit voltage in V");
+  } else if (least > 0 && least >= voltage) {
+    f.problem("least", fmt::format("supply.least {:.4g} V is not below supply.voltage {:.4g} V", least, voltage));
+  }
+}
+
 void Initial::fields(Fields& f) {
   f.per_joint("angles", angles,
               {"rad", -1000, 1000,
@@ -274,13 +288,21 @@ SectionFields::SectionFields(Scenario& s, const Catalog* catalog, const Problems
       controller{Kind::controller, s.controller, describe(Kind::controller).default_type, catalog},
       cpg{Kind::cpg, s.cpg, describe(Kind::cpg).default_type, catalog} {
   actuator.problems = controller.problems = cpg.problems = problems;
-  actuator.host = [this, &s](Fields& f) {
+  // The key is replaced by the keys of the servo file before the section is read (core/robot_files/servo_file.h).
+  const auto model = [this](Fields& f) {
+    std::string name;
+    if (!writing)
+      f.text("model", name, "Name of a servo (gaitlab list servo), whose keys stand for those that are not stated.");
+  };
+  actuator.host = [this, model, &s](Fields& f) {
+    model(f);
     if (writing && s.actuator_source.empty()) return;
     f.text("source", s.actuator_source,
            "Source of the values that this section gives instead of the module types', such as a data sheet; the verdict cites "
            "it. Without a source they count as chosen.");
   };
-  controller.host = [&s](Fields& f) {
+  controller.host = [model, &s](Fields& f) {
+    model(f);
     f.number("period", s.control_period,
              {"s", 1e-9, 1000, "Time between commands; a whole multiple of the step if one is given."});
   };
@@ -310,6 +332,7 @@ void SectionFields::fields(Fields& f) {
     f.group(kind.section, section, kind.about);
   };
   group(actuator);
+  if (!writing || scenario.supply.any()) f.group(kSupplySection, scenario.supply, "Battery or power supply of all motors.");
   if (!actuator.none) group(controller);
   if (has_cpg) group(cpg);
   f.number("duration", scenario.duration, {"s", kPositive, 1e6, "Simulated time; required."});

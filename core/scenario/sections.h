@@ -8,6 +8,8 @@
 
 namespace gaitlab {
 
+inline constexpr const char* kSupplySection = "supply";
+
 /// Keys of the robot's initial pose and base.
 struct BaseFields {
   Scenario& scenario;

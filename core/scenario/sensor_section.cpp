@@ -159,6 +159,7 @@ std::vector<std::string> default_columns(const Scenario& scenario) {
 
 RobotInfo plugin_info(const Scenario& scenario) {
   RobotInfo robot = info(*scenario.robot);
+  robot.control_period = scenario.control_period;
   for (SensorReading& reading : sensor_readings(scenario)) {
     if (reading.replaces == Replaces::nothing) robot.channels.push_back(std::move(reading.name));
   }

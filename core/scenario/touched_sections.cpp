@@ -13,8 +13,9 @@ std::vector<std::string> sections_of(const std::vector<std::string>& sets) {
 }
 
 TouchedSections::TouchedSections(std::vector<std::string> names) : names_(std::move(names)) {
-  constexpr std::array<std::pair<const char*, const char*>, 6> kFollows{{{"contact", "physics"},
+  constexpr std::array<std::pair<const char*, const char*>, 7> kFollows{{{"contact", "physics"},
                                                                          {"contact", "ground"},
+                                                                         {"supply", "actuator"},
                                                                          {"actuator", "controller"},
                                                                          {"initial", "cpg"},
                                                                          {"controller", "cpg"},
@@ -39,6 +40,7 @@ void TouchedSections::restart(Scenario& scenario) const {
   if (has("figure")) scenario.figure = fresh.figure;
   if (has("limits")) scenario.limits = fresh.limits;
   if (has("accept")) scenario.accept = fresh.accept;
+  if (has("supply")) scenario.supply = fresh.supply;
   if (has("actuator")) {
     scenario.actuator = fresh.actuator;
     scenario.actuator_source = fresh.actuator_source;

@@ -20,6 +20,7 @@ struct ShippedKind {
 };
 constexpr ShippedKind kShipped[] = {{"module", {"modules", nullptr}, ".yaml"},
                                     {"robot", {"robots", nullptr}, ".dat"},
+                                    {"servo", {"servos", nullptr}, ".yaml"},
                                     {"scenario", {".", "library"}, ".yaml"},
                                     {"study", {"studies", nullptr}, ".yaml"},
                                     {"recipe", {"figures", nullptr}, ".yaml"}};

@@ -170,7 +170,7 @@ void Simulation::step_companion(int times) try {
       sense();
       command();
     }
-    plant_->advance(command_, h_);
+    plant_->advance(commands(), h_);
     state_[0] += 1;
     check();
   }

@@ -12,7 +12,22 @@ namespace gaitlab {
 /// wanted. The methods allocate nothing.
 class FirstLanes {
  public:
-  enum Place { torque, speed, angle, setpoint, voltage, current, saturation, power_in, copper, gear, dry, available, places };
+  enum Place {
+    torque,
+    speed,
+    angle,
+    setpoint,
+    voltage,
+    current,
+    saturation,
+    power_in,
+    copper,
+    gear,
+    dry,
+    available,
+    bound,
+    places
+  };
 
   FirstLanes(const StateLayout& layout, std::size_t lanes) : layout_(layout), lanes_(lanes) {
     for (auto& copy : copies_) copy.assign(layout.joints * lanes, 0.0);

@@ -13,6 +13,7 @@
 #include "core/simulation/lane_sensors.h"
 #include "core/simulation/recorder.h"
 #include "core/simulation/simulation.h"
+#include "core/simulation/supply.h"
 
 namespace gaitlab {
 
@@ -33,7 +34,8 @@ struct Simulation::Lane {
         integrator(sample.cpg.size()),
         sensors(s) {
     const std::size_t n = info.joints.size();
-    for (auto* values : {&angle, &speed, &torque, &setpoint, &command, &limit, &angle_now, &fastest}) values->assign(n, 0.0);
+    for (auto* values : {&angle, &speed, &torque, &setpoint, &command, &limit, &bound, &angle_now, &speed_now, &fastest})
+      values->assign(n, 0.0);
     for (std::size_t j = 0; j < n; ++j) {
       if (!robot.joints[j].driven()) passive.push_back(j);
     }
@@ -93,13 +95,15 @@ struct Simulation::Lane {
   Out cpg_state, controller_state, ledger;                                       // parts of Simulation::state_
   double energy_at_start = 0;                                                    // J
   std::vector<double> angle, speed, torque, touching, setpoint, command, limit;  // by joint (touching: by module), for plugins
-  std::vector<double> fastest;    // rad/s, largest speed at which each joint met a stop
-  std::int64_t meetings = 0;      // meetings with stops whose loads were measured
-  std::vector<double> angle_now;  // scratch: true angles, rad
-  std::vector<double> channels;   // values of sensors, for plugins
+  std::vector<double> bound;                                                     // V, by joint: see LaneSupply
+  std::vector<double> fastest;               // rad/s, largest speed at which each joint met a stop
+  std::int64_t meetings = 0;                 // meetings with stops whose loads were measured
+  std::vector<double> angle_now, speed_now;  // scratch: true angles and speeds, rad, rad/s
+  std::vector<double> channels;              // values of sensors, for plugins
   Sample sample;
   CpgIntegrator integrator;
   LaneSensors sensors;
+  LaneSupply supply;
   std::unique_ptr<Recorder> recorder;  ///< nullptr for a companion (step_error.h)
 };
 

@@ -36,7 +36,9 @@ class LaneChanges {
   [[nodiscard]] std::size_t segment() const { return numbers_.empty() ? 0 : static_cast<std::size_t>(numbers_[0]); }
   /// CPG and controller of the present segment; nullptr if the scenario has none.
   [[nodiscard]] Cpg* cpg() const { return segments_[segment()].cpg.get(); }
-  [[nodiscard]] Controller* controller() const { return segments_[segment()].controller.get(); }
+  [[nodiscard]] Controller* controller() const { return controller(segment()); }
+  [[nodiscard]] Controller* controller(std::size_t segment) const { return segments_[segment].controller.get(); }
+  [[nodiscard]] std::size_t segments() const { return segments_.size(); }
   [[nodiscard]] const FaultInForce& fault(std::size_t joint) const { return segments_[segment()].faults[joint]; }
   /// Angle of a stuck joint, rad; NaN for a joint that is not stuck.
   [[nodiscard]] double hold(std::size_t joint) const;

@@ -106,7 +106,7 @@ void Simulation::watch_stop(const Lane& lane, std::size_t joint, int side) {
     };
     saved(plant_state_);
     saved(plant_history_);
-    if (t > 0) plant_->advance(command_, t);
+    if (t > 0) plant_->advance(commands(), t);
     return now();
   };
   bool found = now().angle > 0;  // at the end of the step

@@ -50,6 +50,10 @@ void Probes::add_all(const Scenario& scenario, const std::vector<ContactElement>
   const bool motors = scenario.actuator.entry != nullptr;
   const bool friction = motors && !make_actuator(scenario.actuator, info(robot))->friction().empty();
   add_joints(robot, motors, command_unit, std::ranges::any_of(scenario.changes, faults), friction);
+  if (scenario.supply.any()) {
+    add("supply.voltage", "V", "voltage of the bus, in force just before t", sample_.bus_voltage);
+    add("supply.current", "A", "current of the supply at the control tick that set this voltage", sample_.bus_current);
+  }
   add_base();
   add_vector("com", "m", "centre of mass, world axes", [](const Sample& s) { return s.sums.com; });
   add_contacts(contacts);

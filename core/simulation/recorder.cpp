@@ -73,6 +73,10 @@ Recorder::Recorder(const Scenario& scenario, const std::vector<ContactElement>& 
   const std::size_t joints = scenario.robot->joints.size();
   recording.ticks.columns = tick_columns(joints);
   recording.poses.columns = pose_columns(joints);
+  if (scenario.supply.any()) {
+    recording.supply.columns = supply_columns();
+    bus_since_row_ = {0, scenario.supply.voltage, 0, 1, 0, 0};
+  }
   ticks_per_row_ = std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(kTickRows / scenario.control_period - 1e-9)));
   ticks_per_load_ = ticks_per_row_;
   check_space(scenario, rows_needed());
@@ -98,7 +102,7 @@ void Recorder::reserve_rows(const Scenario& s) {
   };
   for (Trace* table : {&recording.trace, &recording.rest}) reserve(*table, s.duration / s.trace.period);
   const double ticks = s.duration / (s.control_period * static_cast<double>(ticks_per_row_));
-  for (Trace* table : {&recording.ticks, &recording.poses, &recording.loads})
+  for (Trace* table : {&recording.ticks, &recording.poses, &recording.loads, &recording.supply})
     reserve(*table, std::min(ticks, static_cast<double>(kMostTickRows)));
 }
 
@@ -123,6 +127,7 @@ std::optional<Out> Recorder::add_tick(double t, bool last) {
     halve_ticks(ticks);
     halve_rows(recording.loads);
     halve_rows(recording.poses);
+    halve_rows(recording.supply);
     ticks_per_row_ *= 2;
     if (!tick_due() && !last) {
       skip_tick();
@@ -132,9 +137,26 @@ std::optional<Out> Recorder::add_tick(double t, bool last) {
   ticks.values.resize(ticks.values.size() + columns);
   const Out row = Out(ticks.values).last(columns);
   row[0] = t;
+  if (!bus_since_row_.empty()) {
+    bus_since_row_[0] = t;
+    recording.supply.values.insert(recording.supply.values.end(), bus_since_row_.begin(), bus_since_row_.end());
+    bus_since_row_[kLeastVoltage] = INFINITY;
+    bus_since_row_[kLargestCurrent] = 0;
+    bus_since_row_[kHeld] = 1;
+  }
   loads_due_ = loads_ != nullptr;
   skipped_ = false;
   return row.subspan(1);
+}
+
+void Recorder::add_bus(const BusState& bus) {
+  if (bus_since_row_.empty()) return;
+  const auto worse = [](double& now, double value) { now = std::min(now, value); };
+  worse(bus_since_row_[kLeastVoltage], bus.voltage);
+  worse(bus_since_row_[kHeld], bus.held ? 1 : 0);
+  bus_since_row_[kLargestCurrent] = std::max(bus_since_row_[kLargestCurrent], std::abs(bus.current));
+  bus_since_row_[kCharge] += bus.current * scenario_.control_period;
+  bus_since_row_[kBusSquare] += bus.current * bus.current * scenario_.control_period;
 }
 
 void Recorder::skip_tick() {

@@ -8,6 +8,7 @@
 
 #include "core/errors.h"
 #include "core/recording/recording.h"
+#include "core/simulation/bus_state.h"
 #include "core/simulation/load_meter.h"
 #include "core/simulation/probes.h"
 #include "core/simulation/records.h"
@@ -46,6 +47,8 @@ class Recorder {
   std::optional<Out> add_tick(double t, bool last);
   /// Marks a control tick without a row. Its loads count for the next row.
   void skip_tick();
+  /// Counts the bus at a control tick, which holds until the next, for the next row of Recording::supply.
+  void add_bus(const BusState& bus);
   /// Adds a row to Recording::poses: state, set points, centre of mass and contacts of the sample.
   void add_pose(double t, const Sample& sample);
 
@@ -74,10 +77,11 @@ class Recorder {
   std::int64_t ticks_per_row_ = 1;    ///< control ticks per row of Recording::ticks
   std::int64_t ticks_per_load_ = 1;   ///< control ticks per measurement of loads; ticks_per_row_ at the start
   bool loads_due_ = false;
-  bool skipped_ = false;           ///< true if the loads that are due have no row
-  std::vector<double> since_row_;  ///< worst loads since the last row; empty if none were measured
-  std::vector<double> loads_now_;  ///< scratch: the loads of this tick
-  std::size_t unreleased_ = 0;     ///< rows since the last release_rows(), which lets their pages leave memory
+  bool skipped_ = false;               ///< true if the loads that are due have no row
+  std::vector<double> since_row_;      ///< worst loads since the last row; empty if none were measured
+  std::vector<double> loads_now_;      ///< scratch: the loads of this tick
+  std::vector<double> bus_since_row_;  ///< next row of Recording::supply; empty without a supply
+  std::size_t unreleased_ = 0;         ///< rows since the last release_rows(), which lets their pages leave memory
 };
 
 }  // namespace gaitlab

@@ -41,6 +41,10 @@ Sample& Simulation::take_sample(Lane& lane, bool places) {
     s.torque[j] = torque_[i];
     s.friction[j] = friction_[i];
   }
+  if (bounded_) {
+    s.bus_voltage = bus_[2 * l];
+    s.bus_current = bus_[2 * l + 1];
+  }
   lane.read_changes(s);
   s.compute_hinges(lane.robot, lane.passive);
   std::copy(lane.cpg_state.begin(), lane.cpg_state.end(), s.cpg.begin());

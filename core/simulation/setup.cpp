@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "core/laws/dc_motor.h"
@@ -56,6 +57,7 @@ Simulation::Simulation(std::span<const Scenario> lanes, Records records, Role ro
   if (recorded_ != lanes_.size()) own_actuator_ = make_motors(std::span(all).first(recorded_));
   prepare_faults();
   plant_ = make_plant(first, plant_settings());
+  make_supplies();
   for (auto* values :
        {&voltage_, &current_, &saturation_, &power_in_, &copper_, &gear_, &torque_, &slope_, &friction_, &dry_}) {
     values->assign(layout_.joints * lanes_.size(), 0.0);
@@ -76,6 +78,15 @@ Simulation::Simulation(std::span<const Scenario> lanes, Records records, Role ro
 }
 
 Simulation::~Simulation() = default;
+
+void Simulation::make_supplies() {
+  if (actuator_ == nullptr) return;
+  for (const auto& lane : lanes_) {
+    if (lane->controller == nullptr) continue;
+    lane->supply = LaneSupply(lane->scenario, lane->changes, actuator_->dc_motors(), lane->index, lanes_.size());
+    bounded_ = bounded_ || lane->supply.any();
+  }
+}
 
 PlantSettings Simulation::plant_settings() const {
   const auto own = [](const Lane& lane) {
@@ -108,6 +119,7 @@ std::vector<std::size_t> Simulation::rated_gears(const Lane& lane) const {
 /// Number of changing values of this simulation, without the values of separate companions.
 std::size_t Simulation::state_size() const {
   std::size_t size = 1 + layout_.size() + plant_->history() + 2 * layout_.joints * lanes_.size();
+  if (bounded_) size += 2 * (layout_.joints + 1) * lanes_.size();
   for (const auto& lane : lanes_) {
     size += lane->sample.cpg.size() + (lane->controller == nullptr ? 0 : lane->controller->states()) + Ledger::kSums;
     size += lane->sensors.states() + lane->changes.states();
@@ -132,6 +144,11 @@ void Simulation::cut_state(Out numbers) {
   plant_history_ = cut(plant_->history());
   setpoint_ = cut(joints);
   command_ = cut(joints);
+  if (bounded_) {
+    bound_ = cut(joints);
+    within_bound_ = cut(joints);
+    bus_ = cut(2 * lanes_.size());
+  }
   for (const auto& lane : lanes_) {
     lane->cpg_state = cut(lane->sample.cpg.size());
     lane->controller_state = cut(lane->controller == nullptr ? 0 : lane->controller->states());
@@ -181,6 +198,13 @@ void Simulation::place_at_start(Lane& lane) {
     setpoint_[j * lanes_.size() + lane.index] = lane.sample.state.q[j];
     command_[j * lanes_.size() + lane.index] = 0;
   }
+  if (!bounded_) return;
+  for (std::size_t j = 0; j < layout_.joints; ++j) {
+    bound_[j * lanes_.size() + lane.index] = std::numeric_limits<double>::infinity();
+    within_bound_[j * lanes_.size() + lane.index] = 0;
+  }
+  bus_[2 * lane.index] = lane.supply.open_circuit();
+  bus_[2 * lane.index + 1] = 0;
 }
 
 void Simulation::check_standing() {

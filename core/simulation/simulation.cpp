@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/laws/joint_friction.h"
+#include "core/recording/motor_limit.h"
 #include "core/simulation/cpg_check.h"
 #include "core/simulation/lane.h"
 
@@ -133,7 +134,10 @@ void Simulation::evaluate_motors(In speeds) {
   if (actuator_ == nullptr) return;
   const Actuator::Electrical into{voltage_, current_, saturation_, power_in_, copper_, gear_};
   MotorLaws* const laws = plant_->motor_laws();
-  if (laws == nullptr || !laws->evaluate_motors(command_, speeds, into)) actuator_->electrical(command_, speeds, into);
+  if (laws == nullptr || !laws->evaluate_motors(commands(), speeds, into)) actuator_->electrical(commands(), speeds, into);
+  for (std::size_t i = 0; i < bound_.size(); ++i) {
+    if (saturation_[i] == 0 && std::abs(command_[i]) > bound_[i]) saturation_[i] = saturation_of(MotorLimit::voltage);
+  }
 }
 
 /// Computes joint torques at the present state under the commands in force: those of the motors, and friction_. `within`: time
@@ -141,10 +145,10 @@ void Simulation::evaluate_motors(In speeds) {
 void Simulation::evaluate_torques(double within) {
   if (actuator_ == nullptr) return;
   const In speeds = plant_state_.subspan(layout_.speeds(), command_.size());
-  actuator_->effort(command_, speeds, torque_, slope_);
+  actuator_->effort(commands(), speeds, torque_, slope_);
   if (!rubs_) return;
   std::ranges::copy(torque_, friction_.begin());
-  if (!plant_->add_friction(command_, within, torque_)) add_creeping(actuator_->friction(), speeds, torque_, slope_);
+  if (!plant_->add_friction(commands(), within, torque_)) add_creeping(actuator_->friction(), speeds, torque_, slope_);
   for (std::size_t i = 0; i < friction_.size(); ++i) friction_[i] = torque_[i] - friction_[i];
 }
 
@@ -158,12 +162,15 @@ In Simulation::evaluate_available(const StepEffort::Part& part) {
   const Actuator& actuator = own_actuator_ ? *own_actuator_ : *actuator_;
   In found = available;
   if (MotorLaws* const laws = plant_->motor_laws();
-      laws != nullptr && laws->evaluate_available(part.speed, part.torque, available_)) {
+      laws != nullptr && !bounded_ && laws->evaluate_available(part.speed, part.torque, available_)) {
     found = first_.of(In(available_), FirstLanes::available);
   } else {
     const In limit = actuator.command_limit();
-    for (std::size_t i = 0; i < largest_.size(); ++i)
-      largest_[i] = std::isfinite(limit[i]) ? std::copysign(limit[i], torques[i]) : 0;
+    const In bound = bounded_ ? first_.of(In(bound_), FirstLanes::bound) : In();
+    for (std::size_t i = 0; i < largest_.size(); ++i) {
+      const double most = bounded_ ? std::min(limit[i], bound[i]) : limit[i];
+      largest_[i] = std::isfinite(limit[i]) ? std::copysign(most, torques[i]) : 0;
+    }
     actuator.effort(largest_, speeds, available, slope_);
     for (std::size_t i = 0; i < largest_.size(); ++i) {
       available[i] =
@@ -248,17 +255,37 @@ void Simulation::command(Lane& lane) {
     setpoint_[j * lanes + lane.index] = lane.setpoint[j];
     command_[j * lanes + lane.index] = lane.command[j];
   }
+  supply(lane);
   if (recorded(lane)) meter_.command(time(), lane.index, lane.command);
   if (lane.cpg == nullptr) return;
   lane.integrate_cpg(time());
   check_cpg(*lane.cpg, lane.robot, lane.setpoint, lane.cpg_state, step_number(), time());
 }
 
+/// Converts the commands of a lane to volts and bounds them by the voltage of its bus.
+void Simulation::supply(Lane& lane) {
+  if (!bounded_) return;
+  const std::size_t lanes = lanes_.size();
+  for (std::size_t j = 0; j < layout_.joints; ++j) lane.speed_now[j] = plant_state_[layout_.speeds() + j * lanes + lane.index];
+  std::fill(lane.bound.begin(), lane.bound.end(), std::numeric_limits<double>::infinity());
+  lane.supply.apply(lane.changes.segment(), lane.speed_now, lane.command, lane.bound);
+  for (std::size_t j = 0; j < layout_.joints; ++j) {
+    const std::size_t i = j * lanes + lane.index;
+    command_[i] = lane.command[j];
+    bound_[i] = lane.bound[j];
+    within_bound_[i] = std::clamp(command_[i], -bound_[i], bound_[i]);
+  }
+  const BusState& bus = lane.supply.state();
+  bus_[2 * lane.index] = bus.voltage;
+  bus_[2 * lane.index + 1] = bus.current;
+  if (recorded(lane)) lane.recorder->add_bus(bus);
+}
+
 void Simulation::watch_stability() {
   for (const auto& lane : lanes_) {
     if (!recorded(*lane) || !control_tick(*lane)) continue;
     Recording& recording = lane->recorder->recording;
-    const Stability now = plant_->stability(lane->index, command_, false);
+    const Stability now = plant_->stability(lane->index, commands(), false);
     ++recording.control_ticks;
     if (h_ * now.rate > 1) ++recording.control_ticks_above_1;
     if (now.rate > recording.worst.rate) {
@@ -271,7 +298,7 @@ void Simulation::watch_stability() {
 /// Advances the plant by a step. Adds the step to the ledger, which is part of the state, and to the statistics of the
 /// `measured` lanes.
 void Simulation::advance(double h, const std::function<bool(const Lane&)>& measured) {
-  plant_->advance(command_, h);
+  plant_->advance(commands(), h);
   const Scenario& first = scenarios_[0];
   const bool creeps = first.physics.integrator->limited && first.contact.law == ContactLaw::penalty;
   const StepEffort applied = plant_->applied();

@@ -102,6 +102,7 @@ class Simulation {
   [[nodiscard]] std::vector<std::size_t> rated_gears(const Lane& lane) const;
   [[nodiscard]] std::size_t state_size() const;
   void cut_state(Out numbers);
+  void make_supplies();
   void set_start();
   void place_at_start(Lane& lane);
   void check_standing();
@@ -114,6 +115,9 @@ class Simulation {
   void step_companion(int times);
   void ask_watch();
   void watch_stability();
+  /// Commands that reach the motors, by joint * lanes + lane.
+  [[nodiscard]] In commands() const { return bounded_ ? In(within_bound_) : In(command_); }
+  void supply(Lane& lane);
   void evaluate_motors(In speeds);
   void evaluate_torques(double within);
   In evaluate_available(const StepEffort::Part& part);
@@ -162,8 +166,12 @@ class Simulation {
   TwinWindows how_;                                       ///< times at which the twin runs beside this simulation
   std::unique_ptr<StepError> step_error_;                 ///< nullptr without an estimate
   Out plant_state_, plant_history_, setpoint_, command_;  ///< parts of state_; the last two by joint * lanes + lane
+  /// Parts of state_, empty without a supply or duties: bounds of the commands, and the commands within these bounds, by
+  /// joint * lanes + lane, and voltage and current of the bus by lane.
+  Out bound_, within_bound_, bus_;
   std::vector<double> voltage_, current_, saturation_, power_in_, copper_, gear_, torque_, slope_, friction_, dry_, available_,
       largest_;                               ///< scratch by joint * lanes + lane; largest_ has the recorded lanes only
+  bool bounded_ = false;                      ///< true if a lane has a supply, or a controller that commands duties
   bool rubs_ = false;                         ///< true if a joint has friction, or a gear whose torque jumps at rest
   FirstLanes first_;                          ///< entries of the recorded lanes
   std::vector<double> saved_;                 ///< scratch: copy of state_ while a row or loads within a step are recorded

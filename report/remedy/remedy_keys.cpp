@@ -22,6 +22,8 @@ const std::vector<RemedyKey> kKeys{
     {"stall_torque", {"actuator.stall_torque"}, "N m"},
     {"no_load_speed", {"actuator.no_load_speed"}, "rad/s", {"actuator.stall_current"}},
     {"Kp", {"controller.Kp"}, ""},
+    {"gain", {"controller.gain"}, ""},
+    {"P", {"controller.P"}, ""},
     {"friction", {"ground.friction"}, "", {"ground.boxes.friction"}},
 };
 

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/plugin/plugin_instance.h"
+#include "core/scenario/built_robot.h"
 #include "core/scenario/change_section.h"
 #include "core/simulation/simulation.h"
 #include "report/analysis/fall.h"
@@ -68,6 +69,16 @@ std::string lack(const Scenario& scenario, const std::vector<JudgedJoint>& own, 
   return text;
 }
 
+/// Keeps the voltage of a duty, and takes away the supply, before the limits are raised.
+void fix_duty(Scenario& scenario) {
+  const std::size_t joints = scenario.robot->joints.size();
+  const std::unique_ptr<Actuator> actuator = make_motors(scenario);
+  const In limit = actuator->command_limit();
+  scenario.duty_volts.assign(limit.begin(), limit.end());
+  if (scenario.supply.any()) scenario.duty_volts.assign(joints, scenario.supply.voltage);
+  scenario.supply = {};
+}
+
 }  // namespace
 
 bool thrown_up(const Scenario& scenario, const Recording& free, const Recording& own) {
@@ -79,7 +90,11 @@ bool thrown_up(const Scenario& scenario, const Recording& free, const Recording&
 
 bool raise_limits(Scenario& scenario) {
   Raise raise;
-  if (scenario.actuator.entry != nullptr) visit_settings(*scenario.actuator.entry, scenario.actuator.settings.get(), raise);
+  if (scenario.actuator.entry == nullptr) return false;
+  fix_duty(scenario);
+  visit_settings(*scenario.actuator.entry, scenario.actuator.settings.get(), raise);
+  if (raise.found && !raise.zero && scenario.controller.entry != nullptr)
+    visit_settings(*scenario.controller.entry, scenario.controller.settings.get(), raise);
   return raise.found && !raise.zero;
 }
 

@@ -61,9 +61,10 @@ std::string gains(const Scenario& s, std::size_t joint) {
   const SettingsNumbers settings(s.controller);
   const std::string unit(make_controller(s.controller, plugin_info(s))->command_unit());
   std::string text;
-  for (const char* const key : {"Kp", "Kd"}) {
+  for (const std::string key : {"Kp", "Kd", "gain", "P", "D"}) {
     const SettingsNumbers::Found* const gain = settings.find(key);
-    if (gain == nullptr) continue;
+    const bool of_pid = key.starts_with('K');
+    if (gain == nullptr || (!of_pid && (!gain->stated || gain->value[joint] == 0))) continue;
     const std::string own = gain->unit.starts_with("V") ? unit + gain->unit.substr(1) : gain->unit;
     text += fmt::format("{} {}, ", key, with_unit(gain->value[joint], own));
   }

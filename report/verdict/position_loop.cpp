@@ -62,38 +62,46 @@ double PositionLoop::period_of(double share) const {
   return (std::sqrt(b * b - 4 * Kp * c) - b) / (2 * Kp);
 }
 
+std::string PositionLoop::key_text(double gain) const {
+  return fmt::format("{} {:.4g}{}{}", key, gain / per_key, *unit == '\0' || *unit == '/' ? "" : " ", unit);
+}
+
 std::vector<PositionLoop> position_loops(const Scenario& s) {
   std::vector<PositionLoop> loops;
   if (s.actuator.entry == nullptr || s.controller.entry == nullptr || s.robot->joints.empty()) return loops;
   const std::unique_ptr<Actuator> actuator = make_motors(s);
   const DcMotor* const motors = actuator->dc_motors();
-  const SettingsNumbers settings(s.controller);
-  if (motors == nullptr || settings.find("Kp") == nullptr ||
-      make_controller(s.controller, plugin_info(s))->command_unit() != "V")
-    return loops;
+  const std::unique_ptr<Controller> controller = make_controller(s.controller, plugin_info(s));
+  const bool duty = controller->command_unit() == "duty";
+  const std::vector<PositionGains> gains = controller->gains();
+  if (motors == nullptr || gains.empty() || !(duty || controller->command_unit() == "V")) return loops;
   const std::vector<Measured> angles = measured(s);
   for (std::size_t j = 0; j < s.robot->joints.size(); ++j) {
     const DcMotor& motor = motors[j];
     const Measured& angle = angles[j];
-    const double Kp = number(settings, "Kp", j, 0);
+    const double volts = !duty ? 1 : s.supply.any() ? s.supply.voltage : motor.u_max;  // per unit of the command
+    const double Kp = volts * gains[j].P;
     const double per_volt = motor.u_max > 0 ? motor.unlimited(motor.u_max, 0).torque / motor.u_max : 0;  // N m/V
     const double stall = motor(motor.u_max, 0).torque;
     if (!s.robot->joints[j].driven() || !(Kp * angle.gain > 0) || !(per_volt > 0) || !(stall > 0)) continue;
     PositionLoop& loop = loops.emplace_back();
     loop.joint = j;
     loop.Kp = Kp;
-    loop.Kd = number(settings, "Kd", j, 0);
+    loop.key = gains[j].key;
+    loop.unit = gains[j].unit;
+    loop.per_key = volts * gains[j].per_key;
+    loop.Kd = volts * gains[j].D;
     loop.factor = angle.gain;
-    loop.sharp = 1 / number(settings, "N", j, INFINITY);
+    loop.sharp = 1 / (volts * gains[j].N);
     loop.emf = motor.Ks * motor.gear;
-    loop.period = angle.period;
+    loop.period = std::max(angle.period, s.control_period * static_cast<double>(gains[j].every));
     loop.delay = angle.delay;
     loop.stiffness = angle.gain * Kp * per_volt;
     loop.stall = stall;
     loop.resolution = angle.resolution;
     loop.step = Kp * per_volt * angle.resolution;
     const double damping = loop.Kd > 0 ? loop.Kd / (loop.Kd * loop.sharp + s.control_period) : 0;
-    const double integral = std::abs(number(settings, "Ki", j, 0)) * s.control_period;
+    const double integral = std::abs(volts * gains[j].I) * s.control_period;
     loop.bounded = loop.emf > 0 && std::max(damping, integral) <= kOtherParts * Kp;
   }
   return loops;
@@ -117,12 +125,12 @@ std::string loop_text(const Scenario& s, const std::vector<PositionLoop>& loops)
   const bool equal = loops.size() == driven && std::ranges::all_of(loops, same);
   std::string text =
       soft.stiffness == stiff.stiffness ? "" : fmt::format("k = {:.3g} to {:.3g} N m/rad; ", soft.stiffness, stiff.stiffness);
-  text += fmt::format("k = {:.3g} N m/rad at {} (Kp {:.4g} V/rad)", nearest.stiffness,
-                      equal ? "every joint" : s.robot->joints[nearest.joint].name, nearest.Kp);
+  text += fmt::format("k = {:.3g} N m/rad at {} ({})", nearest.stiffness,
+                      equal ? "every joint" : s.robot->joints[nearest.joint].name, nearest.key_text(nearest.Kp));
   const double most = nearest.Kp_of(1);
   if (!nearest.bounded || !(most > 0)) return text;
-  return fmt::format("{}; the loop settles up to {:.4g} N m/rad (Kp {:.4g} V/rad) with {}", text,
-                     nearest.stiffness * most / nearest.Kp, most, commands_text(s, nearest));
+  return fmt::format("{}; the loop settles up to {:.4g} N m/rad ({}) with {}", text, nearest.stiffness * most / nearest.Kp,
+                     nearest.key_text(most), commands_text(s, nearest));
 }
 
 }  // namespace gaitlab::report

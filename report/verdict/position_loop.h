@@ -28,7 +28,10 @@ namespace gaitlab::report {
 /// Kp / 4, and never above that. Measured on eight robots: docs/paper.md.
 struct PositionLoop {
   std::size_t joint = 0;
-  double Kp = 0, Kd = 0;  ///< V/rad, V s/rad
+  double Kp = 0, Kd = 0;   ///< V/rad, V s/rad
+  const char* key = "Kp";  ///< key of the controller that states Kp, its unit, and Kp per unit of it
+  const char* unit = "V/rad";
+  double per_key = 1;
   double factor = 1;      ///< gain of the encoder, a factor of g and k
   double sharp = 0;       ///< 1 / N, rad/V
   double emf = 0;         ///< Ks n, V s/rad
@@ -42,10 +45,11 @@ struct PositionLoop {
   /// the error, Kd N / (Kd + N T) and Ki T, are at most a quarter of Kp.
   bool bounded = false;
 
-  [[nodiscard]] double derivative() const;  ///< D, V/rad
-  [[nodiscard]] double gain() const;        ///< g
-  [[nodiscard]] double settles() const;     ///< bound of g
-  [[nodiscard]] double share() const;       ///< g as a share of its bound; 0 without a bound
+  [[nodiscard]] double derivative() const;                ///< D, V/rad
+  [[nodiscard]] double gain() const;                      ///< g
+  [[nodiscard]] double settles() const;                   ///< bound of g
+  [[nodiscard]] double share() const;                     ///< g as a share of its bound; 0 without a bound
+  [[nodiscard]] std::string key_text(double gain) const;  ///< `Kp 100 V/rad`, for a gain in V/rad
   /// Kp whose g is `share` of the bound, V/rad.
   [[nodiscard]] double Kp_of(double share) const;
   /// T whose g is `share` of the bound without delay, s; 0 if there is none.

@@ -94,20 +94,21 @@ void check_gain(const Scenario& s, const std::vector<PositionLoop>& loops, std::
   const bool severe = nearest->share() > 1;
   const double most = severe ? 1 : kOvershoots;
   std::vector<std::string> remedies;
-  if (const double Kp = nearest->Kp_of(most); Kp > 0) remedies.push_back(fmt::format("Kp: {:.4g} or less", two_digits(Kp)));
+  if (const double Kp = nearest->Kp_of(most); Kp > 0)
+    remedies.push_back(fmt::format("{}: {:.4g} or less", nearest->key, two_digits(Kp / nearest->per_key)));
   const double period = nearest->period_of(most);
   const bool own_period = nearest->delay > 0 || nearest->period > s.control_period;  // the period is that of the encoder
   if (period > 0 && !own_period) remedies.push_back(fmt::format("controller.period: {:.4g} or less", two_digits(period)));
-  out.push_back(
-      {s.nearest_place("controller.Kp"),
-       fmt::format("Kp {:.4g} of joint {} is {} for {}: the joint {} (gain {:.4g} per command, at most {:.3g}){}", nearest->Kp,
-                   s.robot->joints[nearest->joint].name, severe ? "too large" : "large", commands_text(s, *nearest),
-                   nearest->gain() > kNeverSettles ? "cannot settle"
-                   : severe                        ? "may not settle"
-                                                   : "overshoots",
-                   nearest->gain(), most * nearest->settles(),
-                   remedies.empty() ? "" : fmt::format("; take {}", fmt::join(remedies, ", or "))),
-       severe});
+  out.push_back({s.nearest_place(fmt::format("controller.{}", nearest->key)),
+                 fmt::format("{} {:.4g} of joint {} is {} for {}: the joint {} (gain {:.4g} per command, at most {:.3g}){}",
+                             nearest->key, nearest->Kp / nearest->per_key, s.robot->joints[nearest->joint].name,
+                             severe ? "too large" : "large", commands_text(s, *nearest),
+                             nearest->gain() > kNeverSettles ? "cannot settle"
+                             : severe                        ? "may not settle"
+                                                             : "overshoots",
+                             nearest->gain(), most * nearest->settles(),
+                             remedies.empty() ? "" : fmt::format("; take {}", fmt::join(remedies, ", or "))),
+                 severe});
 }
 
 /// Warns if one step of a measured angle commands a large share of the torque at rest.
@@ -119,9 +120,9 @@ void check_encoder(const Scenario& s, const std::vector<PositionLoop>& loops, st
   out.push_back({s.nearest_place("sensors"),
                  fmt::format("one step of the encoder of joint {}, {:.3g} rad, commands {:.3g} N m, {:.3g} % of the {:.3g} N m "
                              "that its motor has at rest: such steps dominate the torques; take resolution: {:.4g} or less, or "
-                             "Kp: {:.4g} or less",
+                             "{}: {:.4g} or less",
                              s.robot->joints[most->joint].name, most->resolution, most->step, 100 * share(*most), most->stall,
-                             two_digits(most->resolution * less), two_digits(most->Kp * less))});
+                             two_digits(most->resolution * less), most->key, two_digits(most->Kp * less / most->per_key))});
 }
 
 /// `with_gain` is false if the period or a speed is implausible, which then is the reason of a large gain.

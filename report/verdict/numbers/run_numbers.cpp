@@ -3,6 +3,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "report/analysis/bus.h"
 #include "report/verdict/numbers/number_texts.h"
 #include "report/verdict/numbers/numbers.h"
 #include "report/verdict/rolled.h"
@@ -51,6 +52,13 @@ Json torque_errors(R run) {
   for (std::size_t j = 0; j < run.record.joints.size(); ++j)  // operator[] would search all previous names
     each.Container::emplace_back(run.scenario.robot->joints[j].name, run.record.tally.torque_error[j]);
   return each;
+}
+
+/// Number computed by `of` from the bus in the judged window, or null without a supply.
+template <class Of>
+Json of_bus(R run, Of of) {
+  const std::optional<BusUse> bus = bus_use(run.record, run.summary.judged.first_row);
+  return bus ? Json(of(*bus)) : Json();
 }
 
 constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
@@ -229,6 +237,30 @@ std::vector<SummaryNumber> run_numbers() {
        .unit = "A",
        .definition = "RMS of the sum of the magnitudes of all motors' currents, over the whole run.",
        .value = [](R r) { return of_motors(r, [&](const Judged&) { return or_null(r.record.current_rms); }); }},
+      {.key = "supply.voltage_least",
+       .unit = "V",
+       .definition =
+           "Least voltage of the bus in the window, at control ticks; this number and the next two are null without "
+           "a supply.",
+       .value = [](R r) { return of_bus(r, [](const BusUse& bus) { return bus.voltage_least; }); }},
+      {.key = "supply.current_rms",
+       .unit = "A",
+       .definition = "RMS current of the supply in the window, at control ticks.",
+       .value = [](R r) { return of_bus(r, [](const BusUse& bus) { return bus.current_rms; }); }},
+      {.key = "supply.current_peak",
+       .unit = "A",
+       .definition = "Largest current of the supply in the window, at control ticks.",
+       .value = [](R r) { return of_bus(r, [](const BusUse& bus) { return bus.current_peak; }); }},
+      {.key = "endurance",
+       .unit = "min",
+       .definition = "Time until the mean current of the window has drawn supply.capacity; null if the capacity is not stated.",
+       .value =
+           [](R r) {
+             const double capacity = r.scenario.supply.capacity;
+             const Json mean = of_bus(r, [](const BusUse& bus) { return bus.current; });
+             if (!(capacity > 0) || mean.is_null() || !(mean.get<double>() > 0)) return Json();
+             return Json(60 * capacity / mean.get<double>());
+           }},
       {.key = "wall_time",
        .unit = "s",
        .definition = "Real time of the simulation.",

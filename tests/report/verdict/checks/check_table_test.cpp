@@ -22,7 +22,7 @@ struct Expected {
   double limit;                              ///< value beyond which the check fails, or warns if it cannot fail
   double warns;                              ///< value beyond which the check warns
   std::function<Change(double)> early = {};  ///< change before the judged window; absent if `change` has no time
-  [[nodiscard]] bool least() const { return id == "fall" || id == "progress"; }
+  [[nodiscard]] bool least() const { return id == "fall" || id == "progress" || id == "brownout"; }
   /// Value that exceeds the limit by `share` of the limit.
   [[nodiscard]] double beyond(double share) const { return limit == 0 ? share : limit * (1 + (least() ? -share : share)); }
 };
@@ -42,6 +42,23 @@ Expected of_square(const char* id, TickColumn column, double limit) {
 
 Expected of_dock(const char* id, const char* column, double limit) {
   return {id, [=](double v) { return load(column, v); }, limit, 0.8 * limit, [=](double v) { return load(column, v, kEarly); }};
+}
+
+/// A supply of 8 V, at least 0.5 V and at most 5 A, whose bus has a constant current and falls to `voltage` at a row, by
+/// default the last.
+Change on_bus(double voltage, double current, std::optional<std::size_t> row = {}) {
+  return [=](Case& made) {
+    made.scenario.supply = {.voltage = 8, .current = 5, .least = 0.5};
+    Trace& bus = made.record.supply;
+    bus.columns = supply_columns();
+    bus.values.clear();
+    const Trace& ticks = made.record.ticks;
+    for (std::size_t k = 0; k < ticks.rows(); ++k) {
+      const double t = ticks.at(k, 0);
+      const double volts = k == row.value_or(ticks.rows() - 1) ? voltage : 8;
+      for (const double value : {t, volts, current, 1.0, current * t, current * current * t}) bus.values.push_back(value);
+    }
+  };
 }
 
 /// Torque at rest of a motor that may hold more than its stall torque.
@@ -88,6 +105,8 @@ std::vector<Expected> table() {
       of_square("heat", kCurrentSquare, 1),
       of_tick("gear_peak", kTorquePeak, 5, 4),
       of_square("gear_continuous", kTorqueSquare, 3),
+      {"brownout", [](double v) { return on_bus(v, 0); }, 0.5, 0.5, [](double v) { return on_bus(v, 0, kEarly); }},
+      {"battery", [](double v) { return on_bus(8, v); }, 5, 4},
       of_tick("tracking", kErrorPeak, 0.2, 0.1),
       of_joint("stops", &JointStatistics::range_worst, 0.01, 0),
       {"stops",
@@ -217,9 +236,9 @@ TEST(CheckTable, SpansDecideOfARunThatIsTooShort) {
 
 /// Checks have the documented spans. The span of `speed` depends on the limit that decides.
 TEST(CheckTable, HasItsSpans) {
-  const std::set<std::string> window{"progress", "voltage",   "current",         "envelope", "speed",
-                                     "stall",    "heat",      "gear_continuous", "tracking", "slip",
-                                     "airborne", "stability", "periodic",        "evidence", "creep"};
+  const std::set<std::string> window{"progress", "voltage",         "current",  "envelope", "speed",    "stall",
+                                     "heat",     "gear_continuous", "tracking", "slip",     "airborne", "stability",
+                                     "periodic", "evidence",        "creep",    "battery"};
   for (const CheckKind& kind : check_kinds())
     EXPECT_EQ(kind.span, window.contains(kind.id) ? CheckSpan::window : CheckSpan::whole_run) << kind.id;
 }

@@ -1,0 +1,19 @@
+// Numbers of the supply in a run.
+#pragma once
+#include <optional>
+
+#include "core/recording/recording.h"
+
+namespace gaitlab::report {
+
+/// The bus in a part of a run, at its control ticks.
+struct BusUse {
+  double voltage_least = 0, least_time = 0;               ///< V, and its time, s
+  double current_peak = 0, current_rms = 0, current = 0;  ///< A; `current` is the mean
+  bool held = true;                                       ///< false if no voltage satisfied the law of the bus at some tick
+};
+
+/// From row `first` of Recording::supply to its end; nothing if the run has no supply.
+std::optional<BusUse> bus_use(const Recording& record, std::size_t first);
+
+}  // namespace gaitlab::report

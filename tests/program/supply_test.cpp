@@ -1,0 +1,176 @@
+// Tests of a supply that motors share: the bus voltage of every tick from the trace, brown-outs, lanes, and runs without
+// limits.
+#include <cmath>
+
+#include "report/analysis/collisions.h"
+#include "report/verdict/demand.h"
+#include "report/verdict/verdict.h"
+#include "tests/program/as_alone.h"
+#include "tests/program/fixture.h"
+#include "tests/program/rod.h"
+
+namespace gaitlab::test {
+namespace {
+
+constexpr double kOpenCircuit = 7.4;
+constexpr double kInside = 0.8;
+const std::string kBusServo =
+    "actuator: {type: servo, voltage: 6, stall_torque: 2, no_load_speed: 8, stall_current: 2.6666666666666665, i_max: 100, "
+    "load_friction: 0, "
+    "dry_friction: 0, viscous_friction: 0}\n";
+const std::string kNoGround = "ground: {type: none}\ncontact: {on: none}\nphysics: {engine: articulated, estimate: off}\n";
+
+std::string swinging(const std::string& controller, double resistance = kInside) {
+  const std::string supply =
+      resistance > 0 ? fmt::format("supply: {{voltage: {}, resistance: {}}}\n", kOpenCircuit, resistance) : "";
+  return rod() + kNoGround + kBusServo + supply + controller +
+         "cpg: {type: keyframes, model: {frames: [{time: 0, angles: 0}, {time: 0.3, angles: 1.2}, {time: 0.6, angles: 0}]}}\n"
+         "duration: 1.5\ntrace: {period: 0.01, columns: [t, joint.*" +
+         std::string(resistance > 0 ? ", supply.*" : "") + "]}\n";
+}
+
+/// Voltage of a bus with one motor of 2.25 ohm and 0.75 V s/rad, without losses, whose command is u, V.
+double bus_of_one(double u, double speed) {
+  constexpr double kR = 2.25;
+  constexpr double kEmf = 0.75;
+  if (u < 0) return bus_of_one(-u, -speed);
+  const double power = u * (u - kEmf * speed) / kR;
+  if (power <= 0) return kOpenCircuit;
+  const double root = kOpenCircuit * kOpenCircuit - 4 * kInside * power;
+  const double volts = root > 0 ? (kOpenCircuit + std::sqrt(root)) / 2 : 0;
+  return volts >= u ? volts : (kOpenCircuit + kInside * kEmf * speed / kR) / (1 + kInside / kR);  // else the bus cuts u
+}
+
+TEST(Supply, BusVoltageOfEveryTickIsThatOfTheClosedForm) {
+  for (const std::string controller :
+       {"controller: {type: pid, period: 0.01, Kp: 12, Kd: 0}\n", "controller: {type: pid, period: 0.01, Kp: 300, Kd: 0}\n"}) {
+    const Recording r = run(scenario(swinging(controller)));
+    const Table row(r.trace);
+    double least = kOpenCircuit;
+    std::size_t cut = 0;
+    for (std::size_t k = 1; k < r.trace.rows(); ++k) {
+      const double u = row.at(k, "joint.0.voltage_command");
+      const double voltage = row.at(k, "supply.voltage");
+      EXPECT_NEAR(voltage, bus_of_one(u, row.at(k - 1, "joint.0.speed")), 1e-9) << controller << k;
+      EXPECT_LE(std::abs(row.at(k, "joint.0.voltage")), voltage + 1e-9);
+      if (std::abs(u) > voltage) {
+        ++cut;
+        EXPECT_EQ(row.at(k, "joint.0.saturation"), 1) << k;
+      }
+      least = std::min(least, voltage);
+    }
+    EXPECT_LT(least, kOpenCircuit - 0.1);
+    EXPECT_GT(cut, contains(controller, "300") ? 40U : 0U);
+  }
+}
+
+TEST(Supply, DutiesScaleWithTheBus) {
+  const Recording r = run(scenario(swinging("controller: {type: rc_servo, period: 0.01, gain: 4}\n")));
+  const Table row(r.trace);
+  for (std::size_t k = 1; k < r.trace.rows(); ++k) {
+    const double error = row.at(k, "joint.0.setpoint") - row.at(k - 1, "joint.0.angle");
+    EXPECT_NEAR(row.at(k, "joint.0.voltage_command"), 4 * error * row.at(k, "supply.voltage"), 1e-9) << k;
+  }
+}
+
+/// Six rods on one body that leave their rest one after another, `apart` s from each other.
+std::string rods(double apart) {
+  std::string bodies;
+  std::string hinges;
+  std::string frames;
+  for (int j = 0; j < 6; ++j) {
+    bodies += fmt::format("      rod{}: {{mass: 0.2, com: [0, 0, -0.1], inertia: [1e-3, 1e-3, 1e-4, 0, 0, 0]}}\n", j);
+    hinges += fmt::format("      - {{name: h{0}, parent: body, child: rod{0}, axis: [0, 1, 0], range: free}}\n", j);
+  }
+  for (int k = 0; k <= 6; ++k) {
+    std::string angles;
+    for (int j = 0; j < 6; ++j)
+      angles += fmt::format("{}{}", j > 0 ? ", " : "", apart == 0 ? (k > 0 ? 1 : 0) : (j < k ? 1 : 0));
+    const double step = apart == 0 ? 0.1 : apart;
+    frames += fmt::format("{}{{time: {}, angles: [{}]}}, {{time: {}, angles: [{}]}}", k > 0 ? ", " : "", step * k, angles,
+                          step * (k + 1) - 0.005, angles);
+  }
+  return "gaitlab: 1\nrobot:\n  base: fixed\n  position: [0, 0, 2]\n  modules:\n    gaitlab_module: 1\n    name: star\n    "
+         "bodies:\n"
+         "      body: {mass: 1, inertia: [1, 1, 1, 0, 0, 0]}\n" +
+         bodies + "    hinges:\n" + hinges + kNoGround + kBusServo +
+         "supply: {voltage: 7.4, resistance: 0.2, least: 6, current: 8, capacity: 1}\n"
+         "controller: {type: rc_servo, period: 0.005, gain: 6}\n"
+         "cpg: {type: keyframes, model: {interpolation: linear, repeat: false, frames: [" +
+         frames + "]}}\nduration: 2.5\n";
+}
+
+TEST(Supply, JointsThatStartTogetherBrownOutAndStaggeredOnesDoNot) {
+  const auto judged = [](const std::string& text) {
+    const Scenario s = scenario(text);
+    const Recording r = run(s);
+    return report::verdict(s, r, report::summarise(s, r, 0), report::overlaps(s, r));
+  };
+  const auto check = [](const report::Verdict& v, const char* id) {
+    return *std::ranges::find(v.checks, id, &report::Check::id);
+  };
+  const report::Verdict together = judged(rods(0));
+  const report::Check down = check(together, "brownout");
+  EXPECT_EQ(down.status, report::CheckStatus::fail) << down.text;
+  EXPECT_LT(down.value, 6);
+  EXPECT_EQ(down.first_part, "m0/h0");
+  EXPECT_TRUE(contains(down.text, "the electronics stop below 6 V")) << down.text;
+  const report::Verdict staggered = judged(rods(0.3));
+  EXPECT_EQ(check(staggered, "brownout").status, report::CheckStatus::pass) << check(staggered, "brownout").text;
+}
+
+TEST(Supply, IsFoundAtItsTick) {
+  // At rest all duties are the same step: I = 6 d^2 V / R, so that V = V0 / (1 + 6 r d^2 / R), with d = 1 from 6 (e) > 1 on.
+  const Scenario s = scenario(rods(0));
+  const Recording r = run(s);
+  std::size_t first = 0;
+  while (first < r.supply.rows() && r.supply.at(first, kLeastVoltage) >= 6) ++first;
+  ASSERT_LT(first, r.supply.rows());
+  const Table row(r.trace);
+  double expected = 0;
+  for (std::size_t k = 1; k < r.trace.rows() && expected == 0; ++k) {
+    double conductance = 0;
+    double back = 0;
+    for (int j = 0; j < 6; ++j) {
+      const double d = std::clamp(
+          6 * (row.at(k, fmt::format("joint.{}.setpoint", j)) - row.at(k - 1, fmt::format("joint.{}.angle", j))), -1.0, 1.0);
+      conductance += d * d / 2;
+      back += d * 0.75 * row.at(k - 1, fmt::format("joint.{}.speed", j)) / 2;
+    }
+    if ((7.4 + 0.2 * back) / (1 + 0.2 * conductance) < 6) expected = row.at(k, "t");
+  }
+  EXPECT_NEAR(r.supply.at(first, 0), expected, 1e-12);
+}
+
+TEST(SupplyLanes, AreRunsAlone) {
+  std::vector<Scenario> lanes;
+  for (const double resistance : {0.0, 0.1, 0.8, 2.5}) {
+    for (const char* const controller : {"gain: 4, latency: 0.02", "gain: 4, limit: 0.3"}) {
+      lanes.push_back(
+          scenario(swinging(fmt::format("controller: {{type: rc_servo, period: 0.01, {}}}\n", controller), resistance)));
+      lanes.back().trace.columns = {"t", "joint.*"};
+    }
+  }
+  expect_as_alone(lanes, 2);
+}
+
+TEST(Supply, ARunWithoutLimitsKeepsTheVoltageOfADuty) {
+  for (const double resistance : {kInside, 0.0}) {
+    const std::string text = swinging("controller: {type: rc_servo, period: 0.01, gain: 4, limit: 0.1}\n", resistance);
+    Scenario twin = scenario(text);
+    ASSERT_TRUE(report::raise_limits(twin));
+    twin.trace.columns = {"t", "joint.*"};
+    const Recording limited = run(scenario(text));
+    const Recording free = run(twin);
+    const Table row(free.trace);
+    for (std::size_t k = 1; k < free.trace.rows(); ++k) {
+      const double error = row.at(k, "joint.0.setpoint") - row.at(k - 1, "joint.0.angle");
+      EXPECT_NEAR(row.at(k, "joint.0.voltage_command"), 4 * error * (resistance > 0 ? kOpenCircuit : 6), 1e-9) << k;
+    }
+    EXPECT_GT(limited.joints.at(0).saturated_voltage, 0.3);
+    EXPECT_EQ(free.joints.at(0).saturated_voltage, 0);
+  }
+}
+
+}  // namespace
+}  // namespace gaitlab::test
