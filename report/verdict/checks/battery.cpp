@@ -31,17 +31,17 @@ void judge_voltage(const CheckedRun& run, Check& made) {
   if (!supply.any() || !use) return;
   made.text = "the supply states no least voltage (supply.least)";
   if (!(supply.least > 0) && use->held) return;
-  made.value = use->voltage_least;
-  made.limit = supply.least;
+  made.value = supply.voltage - use->voltage_least;
+  made.limit = supply.voltage - supply.least;
   made.source = "supply.least";
   made.from = made.to = use->least_time;
-  made.status = use->held && made.value >= made.limit ? CheckStatus::pass : CheckStatus::fail;
-  made.text = use->held ? fmt::format("the bus sags to {:.3g} V of {:.3g} V", made.value, supply.voltage)
+  made.status = use->held && made.value <= made.limit ? CheckStatus::pass : CheckStatus::fail;
+  made.text = use->held ? fmt::format("the bus sags to {:.3g} V of {:.3g} V", use->voltage_least, supply.voltage)
                         : fmt::format("the supply cannot give what the motors take: no voltage from 0 to {:.3g} V balances",
                                       supply.voltage);
   if (made.status == CheckStatus::pass) return;
-  find_first(run, made.limit, made);
-  if (use->held) made.text += fmt::format(", and the electronics stop below {:.3g} V", made.limit);
+  find_first(run, supply.least, made);
+  if (use->held) made.text += fmt::format(", and the electronics stop below {:.3g} V", supply.least);
   if (!made.first_part.empty()) made.text += fmt::format("; {} is the first joint without its voltage", made.first_part);
   made.remedy = kSpread;
 }
@@ -65,9 +65,10 @@ void judge_current(const CheckedRun& run, Check& made) {
 }  // namespace
 
 std::vector<CheckKind> checks::battery() {
-  return {{"brownout", CheckGroup::motor, "V", "Supply holds its voltage", "least voltage of the bus at control ticks",
-           "below supply.least, or if no voltage satisfies the law of the bus", "", CheckSpan::whole_run, "supply.least",
-           kSpread, judge_voltage, true, false, false, Lost::extreme},
+  return {{"brownout", CheckGroup::motor, "V", "Supply holds its voltage",
+           "largest drop of the bus below supply.voltage, at control ticks, compared with the drop to supply.least",
+           "to less than supply.least, or if no voltage satisfies the law of the bus", "", CheckSpan::whole_run, "supply.least",
+           kSpread, judge_voltage, false, false, false, Lost::extreme},
           {"battery", CheckGroup::motor, "A", "Supply gives the current",
            "current of the supply at control ticks of the window, RMS, compared with its largest continuous current",
            "above supply.current", "above limits.warn_share of it, or with a peak above it", CheckSpan::window,

@@ -22,7 +22,7 @@ struct Expected {
   double limit;                              ///< value beyond which the check fails, or warns if it cannot fail
   double warns;                              ///< value beyond which the check warns
   std::function<Change(double)> early = {};  ///< change before the judged window; absent if `change` has no time
-  [[nodiscard]] bool least() const { return id == "fall" || id == "progress" || id == "brownout"; }
+  [[nodiscard]] bool least() const { return id == "fall" || id == "progress"; }
   /// Value that exceeds the limit by `share` of the limit.
   [[nodiscard]] double beyond(double share) const { return limit == 0 ? share : limit * (1 + (least() ? -share : share)); }
 };
@@ -105,7 +105,7 @@ std::vector<Expected> table() {
       of_square("heat", kCurrentSquare, 1),
       of_tick("gear_peak", kTorquePeak, 5, 4),
       of_square("gear_continuous", kTorqueSquare, 3),
-      {"brownout", [](double v) { return on_bus(v, 0); }, 0.5, 0.5, [](double v) { return on_bus(v, 0, kEarly); }},
+      {"brownout", [](double v) { return on_bus(8 - v, 0); }, 7.5, 7.5, [](double v) { return on_bus(8 - v, 0, kEarly); }},
       {"battery", [](double v) { return on_bus(8, v); }, 5, 4},
       of_tick("tracking", kErrorPeak, 0.2, 0.1),
       of_joint("stops", &JointStatistics::range_worst, 0.01, 0),
