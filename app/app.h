@@ -99,6 +99,9 @@ void print_retry(const ScenarioArguments& arguments, const report::Verdict& verd
 /// Simulates the demand twin of a run, with its progress unless `quiet`, and adds its results to the verdict.
 void take_demand(const Scenario& scenario, const Recording& recording, const report::Summary& summary, report::Verdict& verdict,
                  bool quiet = false);
+/// Simulates an infeasible run again without the friction of its servos that is only chosen, if there is any, and adds the word
+/// of that run to the verdict. Memory that is short, or a plugin that throws, leaves the verdict as it is.
+void take_word_without_friction(const Scenario& scenario, report::Verdict& verdict, bool quiet);
 /// Exit code of a run. If `shown.fail_infeasible`, it is 1 for a failed run, and 3 unless this run and every draw are feasible;
 /// otherwise it is 0, also for a run that was not judged.
 [[nodiscard]] int exit_code(const report::Verdict& verdict, const SummaryOptions& shown);

@@ -7,13 +7,16 @@
 #include <cstdlib>
 #include <functional>
 #include <limits>
+#include <new>
 #include <sstream>
 #include <utility>
 
 #include "app/shell/commands.h"
 #include "app/shell/progress.h"
 #include "app/shell/shell_word.h"
+#include "app/shell/stop_on_signal.h"
 #include "core/errors.h"
+#include "core/scenario/chosen_friction.h"
 #include "core/scenario/resolved.h"
 #include "core/scenario/sections.h"
 #include "core/settings/joint_patterns.h"
@@ -22,6 +25,7 @@
 #include "kit/stored_scenario.h"
 #include "report/analysis/summary.h"
 #include "report/verdict/demand.h"
+#include "report/verdict/frictionless.h"
 #include "report/verdict/numbers/number_texts.h"
 #include "report/verdict/numbers/summary_text.h"
 #include "report/verdict/screen.h"
@@ -107,6 +111,22 @@ void take_demand(const Scenario& scenario, const Recording& recording, const rep
   }
   Progress progress(quiet);
   report::add_demand(verdict, scenario, summary, report::demand(twin, recording, summary, std::ref(progress)));
+}
+
+void take_word_without_friction(const Scenario& scenario, report::Verdict& verdict, bool quiet) try {
+  if (verdict.word != Word::infeasible || !verdict.unstable.empty()) return;
+  const std::vector<std::string> sets = without_chosen_friction(scenario);
+  if (sets.empty()) return;
+  Catalog catalog = standard_catalog();  // the plugins of the run are already loaded
+  const StoredScenario same{scenario.file + " (without chosen friction)", resolved(scenario, FilePaths::whole)};
+  const Scenario twin = read_stored(same, catalog, OtherPlugins::taken, sets);
+  if (!quiet) say(scenario.file, "note", "infeasible; simulated again without the chosen friction of its servos");
+  Progress progress(quiet);
+  verdict.without_friction = report::word_of(twin, std::ref(progress), stopped());
+} catch (const InputError& error) {  // for example a step that is too long without the inertia of the rotors
+  if (!quiet) say(scenario.file, "note", "the word without this friction is not known: " + error.problems().front().text);
+} catch (const std::bad_alloc&) {  // NOLINT(bugprone-empty-catch)
+} catch (const PluginError&) {     // NOLINT(bugprone-empty-catch)
 }
 
 int exit_code(const report::Verdict& verdict, const SummaryOptions& shown) {

@@ -10,6 +10,7 @@
 #include "core/scenario/resolved.h"
 #include "report/remedy/remedy_text.h"
 #include "report/verdict/demand.h"
+#include "report/verdict/frictionless.h"
 
 namespace gaitlab::kit {
 
@@ -48,10 +49,14 @@ report::PageData JudgedRun::page_data(std::size_t most) const {
                            most);
 }
 
-void JudgedRun::keep_demand() {
+void JudgedRun::keep_second_runs(bool demand) {
   const fs::path file = folder() / "verdict.json";
-  if (kind_of(file) != fs::file_type::regular || report::take_demand(verdict, read_file(file, kMostJson))) return;
-  say(file.string(), "note", "belongs to another recording; its --demand results are not shown");
+  if (kind_of(file) != fs::file_type::regular) return;
+  const std::string json = read_file(file, kMostJson);
+  const bool own_word = report::take_word_without_friction(verdict, json);
+  const bool own_demand = !demand || report::take_demand(verdict, json);
+  if (!own_word || !own_demand)
+    say(file.string(), "note", "belongs to another recording; its results of second runs are not shown");
 }
 
 void JudgedRun::keep_remedy() {

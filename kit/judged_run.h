@@ -25,8 +25,9 @@ struct JudgedRun {
   [[nodiscard]] const Recording& recording() const { return read.stored.recording; }
   [[nodiscard]] std::filesystem::path folder() const { return read.stored.file.parent_path(); }
   [[nodiscard]] report::PageData page_data(std::size_t most = report::kMostData) const;
-  /// Adds the results of an earlier --demand to the verdict, from verdict.json, because recordings do not contain them.
-  void keep_demand();
+  /// Adds the results of second runs to the verdict, from verdict.json, because recordings do not contain them: the word
+  /// without chosen friction and, if `demand`, the results of an earlier --demand.
+  void keep_second_runs(bool demand = true);
   /// Adds the remedy of an earlier search to the verdict, from remedy.json.
   void keep_remedy();
 };

@@ -10,11 +10,8 @@ JudgedRun judged_run(const std::string& name, Catalog& catalog, const std::vecto
   JudgedRun run = read_judged(name, catalog);
   run.all.reset();
   draw_joints(run.read.scenario, joints);
-  if (shown.demand) {
-    take_demand(run.read.scenario, run.recording(), run.summary, run.verdict);
-  } else {
-    run.keep_demand();
-  }
+  run.keep_second_runs(!shown.demand);
+  if (shown.demand) take_demand(run.read.scenario, run.recording(), run.summary, run.verdict);
   run.keep_remedy();
   return run;
 }

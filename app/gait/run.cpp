@@ -212,6 +212,7 @@ int run_into(RunFolder& folder, const Scenario& scenario, const RunArguments& ar
   if (files.lost_any()) files.write_text("summary.json", [&] { return report::to_json(summary, scenario, recording); });
   if (recording.spread.rows() > 0 || recording.draws.rows() > 0)
     verdict = report::verdict(seen, recording, summary, run.overlaps);
+  take_word_without_friction(seen, verdict, arguments.quiet);
   if (arguments.shown.demand) take_demand(seen, recording, summary, verdict, arguments.quiet);
   files.write_report(seen, recording, summary, verdict, !arguments.no_page);
   if (files.wrote_any()) folder.keep();

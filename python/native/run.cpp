@@ -98,7 +98,7 @@ std::shared_ptr<PyRun> read_run_folder(const std::string& folder, const Trusted&
     register_classes(run->file->catalog);
     run->file->catalog.set_trust(trust_of(trusted, "read"));
     kit::JudgedRun read = kit::read_judged(folder, run->file->catalog);
-    read.keep_demand();
+    read.keep_second_runs();
     read.keep_remedy();
     run->seen = read.read.scenario;
     run->scenario = std::move(read.read.scenario);

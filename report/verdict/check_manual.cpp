@@ -30,12 +30,16 @@ std::vector<Meaning> meanings() {
            "accurate. With contact.law bullet, whose solver keeps bodies apart, fall and in_ground may be missing, and unknown "
            "evidence (torque error, the ground's share of the weight) is named beside the verdict."},
           {Word::infeasible,
-           fmt::format("A check fails, in a run that is accurate and shows the gait. In a run that is too short, or whose gait "
-                       "is not at full size, only a check of the whole run counts (fall, upright, stops, collision, in_ground, "
-                       "gear_peak, docks, a rated speed), because more time cannot undo it. With a torque error above "
-                       "limits.torque_error (at most {}) and up to {}, only voltage, current, stall, heat, gears and docks "
-                       "count, and only if one fails even with its value reduced by the torque error of its joint.",
-                       texts::percent(Limits::kMostTorqueError), texts::percent(kMostError))},
+           fmt::format(
+               "A check fails, in a run that is accurate and shows the gait. In a run that is too short, or whose gait "
+               "is not at full size, only a check of the whole run counts (fall, upright, stops, collision, in_ground, "
+               "gear_peak, docks, a rated speed), because more time cannot undo it. With a torque error above "
+               "limits.torque_error (at most {}) and up to {}, only voltage, current, stall, heat, gears and docks "
+               "count, and only if one fails even with its value reduced by the torque error of its joint. If friction or "
+               "inertia of "
+               "servos is chosen, `run` simulates once more without it; where that run is feasible, the sentence ends `with "
+               "the friction chosen; feasible without`.",
+               texts::percent(Limits::kMostTorqueError), texts::percent(kMostError))},
           {Word::not_judged,
            "Anything else. The sentence names all missing evidence, its settings where they are known, and the failing check "
            "so far; if a number is impossible, it names only this number. If all settings are known, a line `judge by` has the "

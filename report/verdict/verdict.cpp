@@ -175,7 +175,8 @@ std::string Verdict::why() const {
   if (word == Word::not_judged) return reason.text;
   const auto decisive = std::ranges::find(checks, decided_by, &Check::id);
   if (decisive == checks.end()) return "";
-  return decisive->sentence();
+  const bool by_friction = word == Word::infeasible && without_friction == Word::feasible;
+  return decisive->sentence() + (by_friction ? ", with the friction chosen; feasible without" : "");
 }
 
 namespace {

@@ -2,6 +2,7 @@
 // the whole run.
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -85,6 +86,8 @@ struct Verdict {
   double first_time = 0;         ///< s, time when `first_joint` was at its limit
   std::vector<JointDemand> demands = {};  ///< empty if no joint reaches a limit, or if the demand was not computed
   std::string demand_doubt = {};          ///< reason why the demands are unknown or doubtful; empty otherwise
+  /// Word of the run without the friction that is only chosen (frictionless.h); nothing if it was not simulated.
+  std::optional<Word> without_friction = {};
   /// Id of the deciding check of `failed` and `infeasible`. If a check of the robot as a whole (group `run`) causes the word,
   /// it is this check; otherwise the check with the least margin among those that cause it.
   std::string decided_by = {};
@@ -101,7 +104,8 @@ struct Verdict {
   /// only if they fail.
   [[nodiscard]] const Check* tightest() const;
   /// Sentence printed after the word: the reason of `not judged`, the deciding check of `failed` and `infeasible`, or nothing
-  /// for `feasible`.
+  /// for `feasible`. If without_friction is `feasible`, the sentence of `infeasible` ends `, with the friction chosen; feasible
+  /// without`.
   [[nodiscard]] std::string why() const;
 };
 

@@ -122,6 +122,7 @@ std::string to_json(const Verdict& verdict) {
   for (const Check& c : verdict.checks) json["checks"].push_back(json_of(c));
   if (!verdict.faults.empty()) json["faults"] = verdict.faults;
   if (!verdict.demands.empty() || !verdict.demand_doubt.empty()) json["demand"] = demand_of(verdict);
+  if (verdict.without_friction) json["without_chosen_friction"] = name_of(*verdict.without_friction);
   if (!verdict.draws.empty()) json["draws"] = draws_of(verdict);
   return json.dump(2) + "\n";
 }

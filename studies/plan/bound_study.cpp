@@ -82,9 +82,9 @@ BoundStudy::BoundStudy(Study study, const QuantityOffer& offer, Catalog& catalog
   make_scorers(offer, catalog);
 }
 
-/// The study. If its budget is impossible, it is replaced by a possible one.
+/// The study. If its budget is impossible, it is replaced by a possible one. That of a robust study depends on its worlds.
 Study BoundStudy::with_budget(Study study) {
-  check_budget(study, problems_);
+  if (!study.robust) check_budget(study, problems_);
   return study;
 }
 
@@ -96,6 +96,7 @@ void BoundStudy::find_worlds() {
     if (std::ranges::any_of(of_each, [w](const std::vector<World>& of) { return of[w].applies; })) robust_worlds_.push_back(w);
   }
   study_.replicates.count = 1 + static_cast<std::int64_t>(robust_worlds_.size());
+  check_budget(study_, problems_);
 }
 
 /// Refuses a free parameter with the name of a key of the scenario, because the two would be confused.

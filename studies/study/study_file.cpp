@@ -225,11 +225,11 @@ void choose_method(Study& study, bool named, Purpose purpose) {
   if (study.asked) study.method = Method::random;  // no method is used
 }
 
-/// Replicates of a robust study: the nominal run, and at most all worlds. The plan leaves out worlds that do not apply.
+/// Replicates of a robust study: the nominal run, and the worlds of a dc_motor. The bound study counts the worlds that apply.
 Replicates in_worlds() {
-  constexpr std::int64_t kMost = 17;
+  constexpr std::int64_t kUsual = 17;
   constexpr double kShare = 0.75;  // share of runs that must break no limit, so that the lower quartile of margins is limited
-  return {.count = kMost, .vary = {}, .combine = Combine::robust, .quantile = kShare};
+  return {.count = kUsual, .vary = {}, .combine = Combine::robust, .quantile = kShare};
 }
 
 /// Reads the rules that stop runs. Without them, a hopeless run of a search ends early if it decides about its point alone.

@@ -72,9 +72,11 @@ struct VerifyKeys {
            "Simulate the best points again in this engine, with its default step; `none`: in no other engine.");
     f.number("change", verify.change,
              {"", 1e-6, 10, "Largest relative change of an objective for which a point counts as verified."});
-    f.flag("worlds", verify.worlds,
-           "Simulate the best points again in up to 16 worlds: friction, R, Kt, mass and supply changed one by one to an end "
-           "of their usual errors, then all drawn within tolerances; gears always `directional`.");
+    f.flag(
+        "worlds", verify.worlds,
+        "Simulate the best points again in up to 20 worlds: friction, R, Kt, mass, supply, and gear friction and rotor inertia "
+        "where they are chosen, changed one by one to an end of their usual errors, then all drawn within tolerances; gears "
+        "always `directional`.");
     f.number("share", verify.share, {"", 0, 1, "Least share of the worlds in which a verified point breaks no limit."});
     static constexpr std::array kFaults{"none", "each"};
     f.choice(

@@ -43,6 +43,8 @@ MUST |= {check: ("pass", "warn") for check in ("envelope", "setpoints", "start",
 MUST |= {check: ("pass", "fail") for check in ("outcome", "fall", "in_ground")}
 MUST |= {"progress": ("pass", "warn", "fail"), "stability": ("pass",), "evidence": ("pass", "not judged"), "supply": ("pass",),
          "step": ("pass",), "coarse": ("pass",), "law": ("pass",)}
+CHOSEN = ("dry_friction", "viscous_friction", "load_friction", "rotor_inertia")  # of servo, where nothing is stated
+FRICTION_ALONE = ", with the friction chosen; feasible without"
 WORDS = ("feasible", "infeasible", "not judged", "failed")
 REASONS = ("that a gait needs", "so far: ", "makes energy", "moves no joint", "off by about", "nothing drives the joints",
            "the shortest steps", "there is no gravity", "falls freely")
@@ -63,8 +65,25 @@ class Gate:
     def __init__(self, program, scenarios, work):
         self.program, self.scenarios, self.work = program, scenarios, work
         self.wrong, self.said, self.met, self.words, self.lines = [], 0, collections.Counter(), collections.Counter(), set()
+        self.frictions = collections.Counter()  # words without chosen friction
         self.browser = page.Browser()
         self.torn, self.pages, self.mutants, self.survivors, self.begins, self.reasons = 0, 0, 0, [], collections.Counter(), []
+
+    def without_friction(self, name, folder, verdict, record):
+        """Word of an infeasible run without the friction of its servos that is only chosen: of a further run, all of whose sentences
+        are checked, too. None where no friction is chosen."""
+        actuator = record.scenario.get("actuator") or {}
+        chosen = [key for key in CHOSEN if key not in actuator]  # the resolved scenario contains what is stated
+        if verdict["verdict"] != "infeasible" or actuator.get("type") != "servo" or not chosen:
+            return None
+        out = folder.parent / "without"
+        sets = [x for key in chosen for x in ("--set", f"actuator.{key}=0")]
+        made = run(self.program, "run", folder.parent / "drawn.yaml", *sets, "--out", out, "--verbose")
+        self.judge(f"{name}, without friction", out, made.stdout)
+        other = json.loads((out / "verdict.json").read_text())
+        word = Judged(Record(out / "trace.h5"), other["window"]["from"], whole=False).word(other["checks"])
+        self.frictions[word] += 1
+        return word
 
     def hear(self, rng, name, scenario, settings, fixed=None):
         """Checks one run: a draft, limits that are drawn around its values, the run, and all of its sentences."""
@@ -139,7 +158,14 @@ class Gate:
         if (first is None) != ("first" not in known) or first and (
                 first["joint"] not in known["first"] or first["time"] != known["first_time"]):
             wrong.append(f"first {first}, recomputed {known.get('first')} at {known.get('first_time')}")
-        wrong += screen.first_screen(stdout, verdict, judged, known)
+        without = self.without_friction(name, folder, verdict, record)
+        if verdict.get("without_chosen_friction") != without:
+            wrong.append(f"without_chosen_friction is {verdict.get('without_chosen_friction')}, recomputed {without}")
+        end = FRICTION_ALONE if without == "feasible" else ""
+        wrong += screen.first_screen(stdout, verdict, judged, known, end)
+        why = page.meta(folder / "report.html")["verdict"]["why"]
+        if why.endswith(FRICTION_ALONE) != bool(end):
+            wrong.append(f"the page says {why!r}, recomputed the end {end!r}")
         lines, seen = screen.verbose(stdout, known)
         wrong += lines
         self.lines |= seen
@@ -261,6 +287,10 @@ def main():
             if not gate.words[word]:
                 open_.append(word)
                 print(f"WRONG no run is {word}")
+        for word in ("feasible", "infeasible"):
+            if not gate.frictions[word]:
+                open_.append(word)
+                print(f"WRONG no infeasible run is {word} without chosen friction")
         for words in REASONS:
             if not any(words in reason for reason in gate.reasons):
                 open_.append(words)

@@ -289,11 +289,12 @@ def dock(record, quantity):
     for m, limit in limits.items():
         load = record.loads[f"dock.{m}.{quantity}"]
         load = load if quantity == "tension" else np.abs(load)
+        load = np.where(np.abs(load) < 1e-9, 0.0, load)  # rounding errors (N, N m)
         if np.isnan(load).all():
             return None
         k = int(np.nanargmax(load))  # the last row of a run that ended early is NaN
         beyond = np.flatnonzero(load > limit)
-        peaks[m] = (max(load[k], 0) if abs(load[k]) < 1e-9 else load[k], t[k], t[beyond[0]] if len(beyond) else np.nan)
+        peaks[m] = (load[k], t[k], t[beyond[0]] if len(beyond) else np.nan)
     stated = {m: peaks[m][0] / limits[m] for m in peaks if limits[m] > 0}
     by = stated or {m: peaks[m][0] for m in peaks}
     most = max(by.values())

@@ -186,8 +186,9 @@ def hear(expression, text, known, who):
     return wrong
 
 
-def first_screen(text, verdict, judged, known):
-    """Compares the first screen with the record and with the checks of verdict.json, whose numbers are recomputed elsewhere."""
+def first_screen(text, verdict, judged, known, end=""):
+    """Compares the first screen with the record and with the checks of verdict.json, whose numbers are recomputed elsewhere. `end` is
+    the end of the deciding sentence."""
     parts, wrong, checks = sections(text), [], verdict["checks"]
     said = {}
     for title, line in parts:
@@ -206,7 +207,7 @@ def first_screen(text, verdict, judged, known):
     elif word == "not judged":
         must("verdict", f"not judged: {verdict['reason']}")
     else:
-        must("verdict", f"{word}: {sentence(fails[0])}")
+        must("verdict", f"{word}: {sentence(fails[0])}{end}")
         fails = fails[1:]
     for title, list_ in (("fails", fails), ("too close", of["too close"]), ("warns", [c for c in of["warn"] if c["id"] != "created"])):
         must(title, " ".join(sentence(c) for c in list_) if list_ else None)

@@ -133,7 +133,7 @@ TEST(Demand, StaysWithItsFolder) {
   EXPECT_TRUE(contains(again.out, "missing: ")) << again.out;
   // A file of a different run, a damaged file and a missing file are not used.
   ASSERT_EQ(gaitlab("run " + file + "--set actuator.i_max=0.3 --demand --no-report --out other", folder.path()).code, 0);
-  const std::string note = "a/verdict.json: note: belongs to another recording; its --demand results are not shown\n";
+  const std::string note = "a/verdict.json: note: belongs to another recording; its results of second runs are not shown\n";
   for (const std::string& text :
        {read(folder / "other/verdict.json"), std::string("{\"demand\": 3}"), std::string("garbage")}) {
     folder.write("a/verdict.json", text);

@@ -57,8 +57,21 @@ std::vector<DcMotor> motors_of(const Scenario& of) {
   return {actuator->dc_motors(), actuator->dc_motors() + of.robot->joints.size()};
 }
 
-const std::vector<std::string> kEnds{"friction -25 %", "friction +25 %", "R -5 %",    "R +5 %",      "Kt -5 %",
-                                     "Kt +5 %",        "mass -3 %",      "mass +3 %", "supply -10 %"};
+const std::vector<std::string> kEnds{"friction -25 %",
+                                     "friction +25 %",
+                                     "R -5 %",
+                                     "R +5 %",
+                                     "Kt -5 %",
+                                     "Kt +5 %",
+                                     "mass -3 %",
+                                     "mass +3 %",
+                                     "supply -10 %",
+                                     "gear friction -50 %",
+                                     "gear friction +100 %",
+                                     "rotor inertia -50 %",
+                                     "rotor inertia +100 %"};
+constexpr std::size_t kDrawn = 13;         // position of the first draw
+constexpr std::size_t kOfPaperMotor = 16;  // dc_motor states its friction and inertia, or has none
 using Sets = std::vector<std::string>;
 const std::string kGears = "actuator.efficiency_model=directional";
 
@@ -72,9 +85,11 @@ TEST(Worlds, ChangeOneNumberEach) {
   EXPECT_EQ(all[3].sets, (Sets{"as_built.R=1.05", kGears}));
   EXPECT_EQ(all[8].sets, (Sets{"as_built.supply=0.9", kGears}));
   EXPECT_EQ(all[8].text(), "supply -10 % (6.66 V)");
-  EXPECT_EQ(all[9].sets, (Sets{"tolerances.foot_friction=0.125", "tolerances.R=0.025", "tolerances.Kt=0.025",
-                               "tolerances.mass=0.015", "tolerances.supply=0.05", "seed=2", kGears}));
-  EXPECT_EQ(all[15].text(), "draw 7 (seed 8)");
+  for (std::size_t k = 0; k < all.size(); ++k) EXPECT_EQ(all[k].applies, k < 9 || k >= kDrawn) << "no chosen friction";
+  EXPECT_EQ(all[10].sets, Sets{kGears});
+  EXPECT_EQ(all[kDrawn].sets, (Sets{"tolerances.foot_friction=0.125", "tolerances.R=0.025", "tolerances.Kt=0.025",
+                                    "tolerances.mass=0.015", "tolerances.supply=0.05", "seed=2", kGears}));
+  EXPECT_EQ(all[19].text(), "draw 7 (seed 8)");
   const std::vector<Scenario> made = in_each(robot_of_two(""));
   const DcMotor drawn = motors_of(own).front();
   constexpr double kRounding = 1e-14;
@@ -84,7 +99,7 @@ TEST(Worlds, ChangeOneNumberEach) {
   EXPECT_NEAR(motors_of(made[5]).front().Ks, 1.05 * drawn.Ks, kRounding);
   EXPECT_NEAR(motors_of(made[8]).front().u_max, 0.9 * drawn.u_max, kRounding);
   EXPECT_NEAR(made[7].robot->mass, 1.03 * own.robot->mass, kRounding);
-  EXPECT_NE(made[9].robot->mass, made[10].robot->mass) << "two draws";
+  EXPECT_NE(made[kDrawn].robot->mass, made[kDrawn + 1].robot->mass) << "two draws";
 }
 
 TEST(Worlds, OfAServoAreThoseOfItsMotor) {
@@ -98,6 +113,37 @@ TEST(Worlds, OfAServoAreThoseOfItsMotor) {
   EXPECT_GT(motors_of(made[0]).front().jumps, 0);
   EXPECT_EQ(world(scenario(text), "supply -10 %").number, "5.4 V") << "voltage, which is u_max";
   EXPECT_EQ(that_apply(scenario(text)).size(), studies::kWorlds);
+}
+
+/// Friction and inertia of a servo are chosen where they are not stated: they are worlds of their own, and are drawn.
+TEST(Worlds, OfChosenFriction) {
+  const auto servo = [](const std::string& keys) {
+    return robot_of_two("actuator: {type: servo, voltage: 6, stall_torque: 1.6, no_load_speed: 5" + keys + "}\n");
+  };
+  const Scenario own = scenario(servo(""));
+  EXPECT_EQ(world(own, "gear friction -50 %").sets, Sets{"as_built.gear_friction=0.5"});
+  EXPECT_EQ(world(own, "rotor inertia +100 %").sets, Sets{"actuator.rotor_inertia=" + number_text(2 * (0.03 * 1.6 / 5))});
+  EXPECT_EQ(world(own, "rotor inertia -50 %").text(), "rotor inertia -50 % (0.0048 kg m^2)");
+  const std::vector<Scenario> made = in_each(servo(""));
+  const auto drawn = make_motors(own);
+  const auto doubled = make_motors(made[10]);
+  constexpr double kRounding = 1e-14;
+  EXPECT_NEAR(doubled->friction()[0].dry, 2 * 0.03 * 1.6, kRounding);
+  EXPECT_NEAR(doubled->friction()[0].viscous, 2 * 0.1 * 1.6 / 5, kRounding);
+  EXPECT_NEAR(doubled->dc_motors()[0].load, (1 - 0.3) / (1 + 0.3), kRounding) << "load_friction 0.15, twice";
+  EXPECT_EQ(doubled->reflected_inertia()[0], drawn->reflected_inertia()[0]);
+  EXPECT_NEAR(make_motors(made[12])->reflected_inertia()[0], 2 * drawn->reflected_inertia()[0], kRounding);
+  const double one = make_motors(made[kDrawn])->reflected_inertia()[0];
+  EXPECT_NE(one, make_motors(made[kDrawn + 1])->reflected_inertia()[0]) << "drawn";
+  EXPECT_NEAR(one / drawn->reflected_inertia()[0], 1, 3 * 0.25) << "a draw is limited to three deviations";
+  // A stated inertia is kept, and with it the two worlds go; one chosen friction is enough for the others.
+  const Scenario stated = scenario(servo(", rotor_inertia: 0.001, dry_friction: 0.05, viscous_friction: 0.04"));
+  EXPECT_FALSE(world(stated, "rotor inertia +100 %").applies);
+  EXPECT_TRUE(world(stated, "gear friction +100 %").applies) << "load_friction";
+  const Scenario all = scenario(servo(", rotor_inertia: 0, dry_friction: 0.05, viscous_friction: 0.04, load_friction: 0.1"));
+  EXPECT_EQ(that_apply(all).size(), kOfPaperMotor);
+  const Scenario worm = scenario(servo(", load_friction: 0.6"));
+  EXPECT_FALSE(world(worm, "gear friction +100 %").applies) << "a gear that eats 1.2 of the torque does not exist";
 }
 
 TEST(Worlds, WithoutMotorsAreEleven) {
@@ -135,7 +181,7 @@ TEST(Worlds, ComposeWithARobotAsBuilt) {
   EXPECT_NEAR(motors_of(made[3])[0].R, 1.05 * motors_of(own)[0].R, kRounding);
   EXPECT_NEAR(motors_of(made[3])[1].R, 1.05 * motors_of(own)[1].R, kRounding);
   EXPECT_EQ(motors_of(made[0])[0].R, motors_of(own)[0].R) << "friction does not change motors";
-  EXPECT_EQ(motors_of(made[9])[0].R, motors_of(own)[0].R) << "stated numbers are not drawn";
+  EXPECT_EQ(motors_of(made[kDrawn])[0].R, motors_of(own)[0].R) << "stated numbers are not drawn";
 }
 
 /// Worlds are drawn within the scenario's own tolerances, with seven other seeds.
@@ -144,7 +190,7 @@ TEST(Worlds, DrawWithinTheScenariosTolerances) {
   const Scenario own = scenario(text);
   EXPECT_EQ(world(own, "draw 3").sets, (Sets{"seed=43", kGears}));
   const std::vector<Scenario> made = in_each(text);
-  EXPECT_EQ(made[11].as_built, scenario(text, {"seed=43"}).as_built);
+  EXPECT_EQ(made[kDrawn + 2].as_built, scenario(text, {"seed=43"}).as_built);
   constexpr double kRounding = 1e-14;
   EXPECT_NEAR(made[7].robot->mass, 1.03 * own.robot->mass, kRounding) << "of the robot as drawn by its own seed";
 }
@@ -159,9 +205,9 @@ TEST(Worlds, UnderBulletsLawChangeTheGround) {
   EXPECT_EQ(world(scenario(text), "friction -25 %").sets,
             (Sets{"ground.friction=" + number_text(0.8 * 0.75), "ground.boxes.0.friction=" + number_text(0.4 * 0.75), kGears}));
   const std::vector<Scenario> made = in_each(text);
-  EXPECT_NE(made[9].ground.friction, made[10].ground.friction) << "drawn";
+  EXPECT_NE(made[kDrawn].ground.friction, made[kDrawn + 1].ground.friction) << "drawn";
   constexpr double kMost = 0.8 * 3 * 0.125;  // a draw is limited to three deviations
-  for (std::size_t k = 9; k < made.size(); ++k) {
+  for (std::size_t k = kDrawn; k < made.size(); ++k) {
     EXPECT_NEAR(made[k].ground.friction, 0.8, kMost);
     EXPECT_NEAR(made[k].ground.boxes()[0].friction / made[k].ground.friction, 0.5, 1e-12) << "one draw for all solids";
   }
@@ -172,10 +218,11 @@ const std::string kRobust = "parameters: {cpg.frequency: {low: 0.5, high: 1.5, c
 TEST(Robust, ReplicatesAreTheWorlds) {
   const SmallStudy study(kRobust);
   const studies::Plan& plan = *study.plan;
-  ASSERT_EQ(plan.points().runs_of_point(), 1 + studies::kWorlds);
+  ASSERT_EQ(plan.points().runs_of_point(), 1 + kOfPaperMotor);
   EXPECT_EQ(plan.sets(0), Sets{"cpg.frequency=0.5"}) << "nominal";
-  const std::vector<World> all = studies::worlds(plan.scenario());
-  for (std::size_t w = 0; w < studies::kWorlds; ++w) {
+  std::vector<World> all = studies::worlds(plan.scenario());
+  std::erase_if(all, [](const World& one) { return !one.applies; });
+  for (std::size_t w = 0; w < all.size(); ++w) {
     Sets expected{"cpg.frequency=1.5"};
     expected.insert(expected.end(), all[w].sets.begin(), all[w].sets.end());
     const std::uint64_t run = plan.points().runs_of_point() + 1 + w;
@@ -192,6 +239,16 @@ TEST(Robust, WorldsThatDoNotApplyAreLeftOut) {
   const SmallStudy study(kRobust + "set: ['actuator={type: torque, limit: 1}', 'controller={type: pid, unit: N m, Kp: 5}']\n");
   EXPECT_EQ(study.plan->points().runs_of_point(), 12U);
   EXPECT_EQ(study.plan->sets(3).at(1), "as_built.mass=0.97") << "behind two of friction";
+}
+
+/// A servo whose losses are chosen has four worlds more.
+TEST(Robust, WorldsOfChosenFrictionAreReplicates) {
+  const std::string servo = "set: ['actuator={type: servo, voltage: 6, stall_torque: 2, no_load_speed: 5";
+  const SmallStudy chosen(kRobust + servo + "}']\n");
+  EXPECT_EQ(chosen.plan->points().runs_of_point(), 1 + studies::kWorlds);
+  EXPECT_EQ(chosen.plan->sets(10).at(1), "as_built.gear_friction=0.5") << "behind the nine worlds of all motors";
+  const SmallStudy stated(kRobust + servo + ", dry_friction: 0, viscous_friction: 0, load_friction: 0, rotor_inertia: 0}']\n");
+  EXPECT_EQ(stated.plan->points().runs_of_point(), 1 + kOfPaperMotor);
 }
 
 /// The value of `as_built` at the point is multiplied, and a point that the scenario refuses is refused as such.

@@ -53,7 +53,7 @@ TEST(InWorlds, CountsWhereAPointStands) {
     EXPECT_TRUE(has_set(job, "actuator.efficiency_model=directional"));
     return answer(job);
   });
-  ASSERT_EQ(all.size(), 1 + studies::kWorlds + 1) << "as run, the worlds, their share";
+  ASSERT_EQ(all.size(), 1 + 16 + 1) << "as run, the worlds of a dc_motor, their share";
   const studies::WorldCount count = studies::counted_worlds(all, 0);
   EXPECT_EQ(count.of, 16U);
   EXPECT_EQ(count.stood, 14U);
