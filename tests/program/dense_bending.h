@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/recording/recording_file.h"
+#include "tests/program/fixture.h"
 
 namespace gaitlab::test {
 
