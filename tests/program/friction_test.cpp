@@ -1,5 +1,6 @@
 // Tests of the friction of driven joints, in every engine, against closed forms for a rod of 1 kg and 1 m, whose inertia about
 // its hinge is 1/3 kg m^2.
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -233,6 +234,27 @@ TEST(FrictionInBulletsSolver, HoldsAnArm) {
   // torque.
   EXPECT_NEAR(end(record, "joint.0.angle"), 0.3, 1e-4);
   EXPECT_NEAR(end(record, "joint.0.torque"), kWeight * std::sin(0.3), 0.01 * kWeight);
+}
+
+/// A snapshot goes on in another simulation with the same bits: joints at rest have no memory outside the state.
+TEST(FrictionLanes, GoOnFromASnapshot) {
+  const std::vector<std::vector<std::string>> own{{"actuator.dry_friction=0.1", "actuator.efficiency_model=directional"},
+                                                  {},
+                                                  {"actuator.dry_friction=1.9"},
+                                                  {"actuator.dry_friction=1e-12"}};
+  const std::vector<Scenario> all = rollouts(
+      kScenarios + "hexapod.yaml", {"physics.engine=articulated", "physics.estimate=off", "duration=2"}, own, catalog());
+  const auto go = [](Simulation& simulation, int steps) {
+    for (int i = 0; i < steps; ++i) simulation.step();
+    return std::vector<double>(simulation.state().begin(), simulation.state().end());
+  };
+  Simulation first(all);
+  for (int part = 0; part < 10; ++part) {  // joints rest and turn, each at other times
+    const std::vector<double> snapshot = go(first, 20);
+    Simulation second(all);
+    std::copy(snapshot.begin(), snapshot.end(), second.state().begin());
+    EXPECT_EQ(go(first, 20), go(second, 20)) << part;
+  }
 }
 
 /// Servos with their usual losses and faults side by side have the bits of each alone.
