@@ -36,10 +36,11 @@ the motor gets d times the supply.
 
     e = goal - measured angle, rad
     d = 0                                                              if |e| <= dead_band > 0
-    d = gain (e - sign(e) dead_band) + sign(e) punch + I_k + D (e - e_last) / T      otherwise, within +- limit
+    d = gain (e - sign(e) dead_band) + sign(e) punch + I_k + D (e - e_last) / T      otherwise
 
 The servo samples every T, `every` control periods, and holds d in between. I_k is the sum of I T e over samples outside the dead
-band; it is held while the last d was beyond the limit with the sign of e. A command beyond the limit counts as one at the supply.
+band; it is held while the last d was beyond `limit` with the sign of e. The driver cuts d at +- limit, and check `voltage` counts
+a duty that is cut as a command at the supply.
 
 The goal is the set point after `latency`, rounded up to whole control periods, because a servo takes up a goal at its next
 sample; before, it is the angle at the start. speed_limit and acceleration_limit are the servo's own profile of the goal: with
@@ -55,7 +56,7 @@ their default P):
     dynamixel_1   0.158            Rhoban/bam, oscilloscope on MX-64 and MX-106
     feetech_sts   0.1649           kscalelabs/sysid, STS3215 12 V at P 32
 
-D and I are in duty s/rad and duty/(rad s) in either case. Latencies of logs: XL330 0.007 s, STS3215 0.034 s.
+Latencies of logs: XL330 0.007 s, STS3215 0.034 s.
 Source: form and units: the makers' manuals and the logs above; dead band and punch: RC servos and Dynamixel AX. Commands duty,
 for actuators that take V.
 
@@ -70,7 +71,7 @@ double RcServo::Settings::proportional(std::size_t joint) const {
 }
 
 void RcServo::Settings::fields(Fields& f) {
-  f.rating("P", P, {"", 0, 1e6, "Proportional gain in the maker's unit, instead of gain."});
+  f.rating("P", P, {"", kPositive, 1e6, "Proportional gain in the maker's unit, instead of gain."});
   f.choice("unit", unit, kUnits, "Unit of P: the maker's firmware.");
   PerJoint usual;
   for (std::size_t j = 0; j < P.each.size(); ++j) usual.each.push_back(gain_of_P(j));

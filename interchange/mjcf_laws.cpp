@@ -129,6 +129,7 @@ Drives drives(const Scenario& s) {
   const std::vector<PositionGains> gains = controller == nullptr ? std::vector<PositionGains>() : controller->gains();
   const bool duty = controller != nullptr && controller->command_unit() == "duty";
   out.by_set_points = !gains.empty();
+  out.duty = duty;
   for (std::size_t j = 0; j < joints; ++j) {
     const double c = torque[j] / kSmall;
     if (!out.by_set_points) {

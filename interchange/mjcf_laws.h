@@ -56,6 +56,7 @@ struct GainAndBias {
 struct Drives {
   std::vector<GainAndBias> joints;  ///< empty without an actuator
   bool by_set_points = false;
+  bool duty = false;        ///< true if the controller commands shares of the supply
   bool integral = false;    ///< true if a joint has Ki
   bool derivative = false;  ///< true if a joint has Kd
   std::string command_unit;

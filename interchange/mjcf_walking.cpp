@@ -162,7 +162,8 @@ std::string MjcfWalking::motor_comment() const {
       "the control period of {} s",
       name(s_.controller), name(s_.actuator), number_text(s_.control_period));
   if (drives_.derivative) out += ", the filter of D, and D of the set point";
-  if (drives_.integral) out += ", Ki";
+  if (drives_.integral) out += ", the integral part";
+  if (drives_.duty) out += ", dead band, punch, latency, profile and sampling of the servo, and the resistance of the supply";
   return out + ", the command limit, and whatever else makes the actuator's law nonlinear.";
 }
 

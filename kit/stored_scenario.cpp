@@ -91,6 +91,10 @@ void check_fit(const std::string& run, const Scenario& scenario, const Recording
   if (recording.joints.size() != joints) refuse(fmt::format("{} joints, {} in the scenario", recording.joints.size(), joints));
   const std::size_t columns = recording.poses.columns.size();
   if (columns != pose_columns(joints).size()) refuse(fmt::format("{} columns of poses, of {} joints", columns, joints));
+  const Trace& bus = recording.supply;
+  if (scenario.supply.any() && (bus.columns.size() != supply_columns().size() || bus.rows() != recording.ticks.rows()))
+    refuse(fmt::format("{} rows of {} columns of the supply, {} rows of ticks", bus.rows(), bus.columns.size(),
+                       recording.ticks.rows()));
   const bool contact = recording.worst.source == Stability::Source::contact;
   const std::size_t places = contact ? contact_elements(*scenario.robot, scenario.contact.on).size() : joints;
   if (recording.worst.rate > 0 && recording.worst.index >= places) {

@@ -107,6 +107,7 @@ class ArticulatedPlant final : public Plant {
     if (!explicit_) kernel_->add_friction(numbers_, command, within, torque);
     return !explicit_;
   }
+  [[nodiscard]] bool holds_hinges() const override { return !explicit_; }
   void tally(std::size_t lane, StepTally& out) const override {
     if (explicit_) return;
     const articulated::History at = kernel_->history();

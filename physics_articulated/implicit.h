@@ -47,7 +47,7 @@ class Implicit {
            const LaneRange& lanes = {0, math::kLanes<T>})
       : body(tree, environment.gravity, environment.dynamics),
         contacts(tree, environment),
-        motors(actuator, tree.lo.size(), tree.passive, lanes),
+        motors(actuator, tree.lo.size(), tree.passive, tree.hinges, lanes),
         holds(tree.lo.size()),
         rotor(tree.lo.size(), T(0.0)),
         done(tree.lo.size()),
@@ -59,12 +59,20 @@ class Implicit {
         now_(joints_),
         next_(joints_) {
     passive_.assign(tree.passive.size(), T(0.0));
+    hinges_ = tree.hinges;
+    for (BasicPassiveHinge<T>& hinge : hinges_) hinge.friction = T(0.0);  // `motors` has it
     for (auto* values : {&stop_, &stop_slope_, &force_, &diagonal_, &end_}) values->assign(joints_, T(0.0));
     const In inertia = actuator == nullptr ? In() : actuator->reflected_inertia();
     if (inertia.empty()) return;
     for (std::size_t j = 0; j < joints_; ++j) {
       for (std::size_t l = 0; l < math::kLanes<T>; ++l) math::lane(rotor[j], l) = inertia[j * lanes.all + lanes.first + l];
     }
+  }
+
+  /// Takes smooth laws of friction, for explicit methods.
+  void creep() {
+    motors.creep();
+    hinges_ = tree_.hinges;
   }
 
   /// Advances the lanes `which` of x by a step and fills done, solves and off. `command` is constant, with index joint * lanes
@@ -136,7 +144,7 @@ class Implicit {
     for (std::size_t j = 0; j < joints_; ++j) stop_[j] = stop_law(x, j);
     for (std::size_t k = 0; k < tree_.passive.size(); ++k) {
       const std::size_t j = tree_.passive[k];
-      passive_[k] = tree_.hinges[k].spring(x[StateLayout::kAngles + j]) + tree_.hinges[k].loss(speeds(x)[j]).torque;
+      passive_[k] = hinges_[k].spring(x[StateLayout::kAngles + j]) + hinges_[k].loss(speeds(x)[j]).torque;
       stop_[j] = stop_[j] + passive_[k];
     }
     if (!motors.any_jump) return accelerate(0);
@@ -179,7 +187,7 @@ class Implicit {
     for (std::size_t k = 0; k < tree_.passive.size(); ++k) {
       const T& w = speeds(x)[tree_.passive[k]];
       sum[2] = sum[2] + passive_[k] * w;
-      sum[3] = sum[3] - tree_.hinges[k].loss(w).torque * w;
+      sum[3] = sum[3] - hinges_[k].loss(w).torque * w;
     }
     return sum;
   }
@@ -357,7 +365,7 @@ class Implicit {
     Stop both = stop_at_end(x, j, qd, h);
     for (std::size_t k = 0; k < tree_.passive.size(); ++k) {
       if (tree_.passive[k] != j) continue;
-      const BasicPassiveHinge<T>& hinge = tree_.hinges[k];
+      const BasicPassiveHinge<T>& hinge = hinges_[k];
       const auto loss = hinge.loss(qd);
       both.torque = both.torque + hinge.spring(x[StateLayout::kAngles + j] + T(h) * qd) + loss.torque;
       both.slope = both.slope + loss.slope + T(h) * hinge.stiffness;
@@ -420,6 +428,7 @@ class Implicit {
     drift<T>(place_, h);
     for (std::size_t e = 0; e < x.size(); ++e) x[e] = math::select(which, place_[e], x[e]);
     done.torque = now_.torque;
+    for (const std::size_t j : tree_.passive) done.torque[j] = T(0.0);  // friction of the hinge, which no motor makes
     std::ranges::copy(qd, done.speed.begin());
     std::copy_n(x.begin() + StateLayout::kAngles, joints_, done.angle.begin());
   }
@@ -429,7 +438,8 @@ class Implicit {
     const std::size_t j = tree_.passive[k];
     const T end = speeds(x)[j] + T(h) * now_.a[6 + j];
     const T stop = stop_at_end(x, j, end, h).torque;
-    const T lost = now_.stop[j] - stop - tree_.hinges[k].spring(x[StateLayout::kAngles + j] + T(h) * end);
+    const T spring = hinges_[k].spring(x[StateLayout::kAngles + j] + T(h) * end);
+    const T lost = now_.stop[j] - stop - spring + (motors.any_jump ? now_.torque[j] : T(0.0));
     done.hinges = done.hinges - T(h) * lost * (speeds(x)[j] + T(0.5) * T(h) * now_.a[6 + j]);
     now_.stop[j] = stop;
   }
@@ -438,7 +448,8 @@ class Implicit {
 
   const Tree<T>& tree_;
   std::size_t joints_;
-  std::vector<T> passive_;  ///< torques of passive hinges, set by evaluate()
+  std::vector<T> passive_;                    ///< torques of passive hinges, set by evaluate()
+  std::vector<BasicPassiveHinge<T>> hinges_;  ///< laws of passive hinges, without dry friction unless it creeps
   std::vector<T> place_, stop_, stop_slope_, force_, diagonal_, end_;
   Sticking<T> sticking_;
   std::vector<math::Mask<T>> rests_;  ///< joints at rest in add_friction()

@@ -8,6 +8,7 @@
 
 #include "core/laws/dc_motor.h"
 #include "core/laws/joint_friction.h"
+#include "core/laws/passive_hinge.h"
 #include "core/plugin/actuator.h"
 
 namespace gaitlab::articulated {
@@ -27,9 +28,11 @@ struct LaneRange {
 template <class T>
 class StepMotors {
  public:
-  /// `passive` lists the joints without a motor, which are treated as DC motors without voltage and torque. Motors other than
-  /// DC motors require a kernel with all lanes of the actuator.
-  StepMotors(const Actuator* actuator, std::size_t joints, std::span<const std::size_t> passive, const LaneRange& lanes)
+  /// `passive` lists the joints without a motor, which are treated as DC motors without voltage and torque, and `hinges` their
+  /// laws, whose dry friction is set-valued like that of a motor. Motors other than DC motors require a kernel with all lanes
+  /// of the actuator.
+  StepMotors(const Actuator* actuator, std::size_t joints, std::span<const std::size_t> passive,
+             std::span<const BasicPassiveHinge<T>> hinges, const LaneRange& lanes)
       : law(joints),
         law_slope(joints),
         torque(joints),
@@ -43,12 +46,15 @@ class StepMotors {
         jumps(joints),
         rest_(joints, T(0.0)),
         least_slope_(joints, T(0.0)),
-        actuator_(actuator) {
-    if (actuator == nullptr) return;
-    find_scale(lanes);
-    for (const std::size_t j : passive) least_slope_[j] = T(0.0);
-    take_friction(lanes);
-    if (actuator->dc_motors() != nullptr) dc_.resize(joints);
+        actuator_(actuator),
+        passive_(passive.begin(), passive.end()) {
+    if (actuator != nullptr) {
+      find_scale(lanes);
+      for (const std::size_t j : passive) least_slope_[j] = T(0.0);
+      take_friction(lanes);
+      if (actuator->dc_motors() != nullptr) dc_.resize(joints);
+    }
+    take_friction(hinges);
     take(passive, lanes);
   }
 
@@ -69,11 +75,15 @@ class StepMotors {
   }
 
   [[nodiscard]] bool any() const { return actuator_ != nullptr; }
+  [[nodiscard]] std::span<const std::size_t> passive() const { return passive_; }  ///< joints without a motor
 
   /// Takes the law of friction for explicit methods, without modes.
   void creep() {
     creeps_ = true;
     any_jump = false;
+    for (const std::size_t j : passive_) {
+      if (!friction_.empty()) friction_[j] = {};
+    }
   }
 
   /// Sets the modes at the start of a step: a joint at rest sticks, another one goes on in its direction.
@@ -95,6 +105,9 @@ class StepMotors {
 
   /// Computes law and law_slope at the speeds `speed`.
   void linearise(In command, std::span<const T> speed) {
+    if (actuator_ == nullptr) {
+      for (std::vector<T>* const values : {&law, &law_slope}) std::ranges::fill(*values, T(0.0));
+    }
     if (actuator_ != nullptr && dc_.empty()) actuator_->effort(command, math::numbers(speed), numbers(law), numbers(law_slope));
     for (std::size_t j = 0; j < dc_.size(); ++j) {
       const auto effort = dc_[j].on(side[j], of_joint(command, j), speed[j]);
@@ -223,6 +236,14 @@ class StepMotors {
     }
   }
 
+  /// Takes the dry friction of passive hinges.
+  void take_friction(std::span<const BasicPassiveHinge<T>> hinges) {
+    const auto rubs = [](const BasicPassiveHinge<T>& hinge) { return math::any_lane(hinge.friction > T(0.0)); };
+    if (std::ranges::none_of(hinges, rubs)) return;
+    friction_.resize(law.size());
+    for (std::size_t k = 0; k < hinges.size(); ++k) friction_[passive_[k]] = {hinges[k].friction, T(0.0)};
+  }
+
   void find_jumps() {
     any_jump = false;
     for (std::size_t j = 0; j < jumps.size() && !creeps_; ++j) {
@@ -247,6 +268,7 @@ class StepMotors {
   std::vector<T> rest_;         // speeds 0
   std::vector<T> least_slope_;  // least slope of a motor that is not at its limit; 0 for a motor without a slope
   const Actuator* actuator_;
+  std::vector<std::size_t> passive_;
   std::vector<BasicDcMotor<T>> dc_;  // empty if the actuator plugin is called
   std::vector<Friction> friction_;   // empty without friction
   bool creeps_ = false;

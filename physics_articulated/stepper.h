@@ -46,7 +46,7 @@ class Stepper {
     limits_ = levels_[0].limits;
     halved_.assign(kHalvings, zero);
     if (method == StepMethod::adaptive) implicit.allow(accuracy);
-    if (method == StepMethod::rk4) implicit.motors.creep();
+    if (method == StepMethod::rk4) implicit.creep();
     parts_.assign(method == StepMethod::adaptive ? std::clamp<std::size_t>(kRoom / size_of_part(), 8, kMostParts) : 4,
                   StepPart<T>(joints_));
   }
@@ -103,6 +103,7 @@ class Stepper {
       const T least = math::clamp(T(0.0), motors.below[j], motors.above[j]);
       part.torque[j] = math::select(motors.sticks[j], least, part.torque[j]);
     }
+    for (const std::size_t j : motors.passive()) part.torque[j] = T(0.0);
     std::ranges::copy(implicit.speeds(x), part.speed.begin());
     std::copy_n(x.begin() + StateLayout::kAngles, joints_, part.angle.begin());
     part.contact = part.friction = part.stops = part.hinges = T(0.0);

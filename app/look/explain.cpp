@@ -158,7 +158,12 @@ std::string explain_word(const std::string& word, Catalog& catalog) {
     const std::string manual = explain_name(word, catalog);
     return (manual.empty() ? "" : manual + "\n") + explain_kind(*kind, catalog);
   }
-  if (std::string text = explain_name(word, catalog); !text.empty()) return text;
+  if (std::string text = explain_name(word, catalog); !text.empty()) {  // a check may have the name of a section: `supply`
+    const std::vector<ScenarioKey> keys = all_keys(catalog);
+    const bool section =
+        std::ranges::any_of(keys, [&](const ScenarioKey& key) { return plain_path(key.path).starts_with(word + "."); });
+    return section ? text + "\n" + explain_keys(word, catalog) : text;
+  }
   if (std::string text = explain_everywhere(word, catalog); !text.empty()) return text;
   if (const std::optional<FileKind> kind = kind_of_file(word)) {
     if (*kind == FileKind::module) return module_manual(word, catalog);

@@ -7,8 +7,9 @@
 namespace gaitlab {
 
 /// torque = -K (q - rest) - D w - F tanh(w / w_s)  (chosen: docs/equations.md, 2)
-/// q: angle, rad; w: speed, rad/s; torque on the joint, N m. Friction is viscous below w_s, so that it has a slope. A torque
-/// below F therefore makes the hinge creep. T: double or lanes.
+/// q: angle, rad; w: speed, rad/s; torque on the joint, N m. For explicit methods: friction is viscous below w_s, so that it
+/// has a slope, and a torque below F makes the hinge creep. Implicit methods take spring and damper from here, with F = 0, and
+/// dry friction as that of a driven joint (JointFriction), so that the hinge sticks. T: double or lanes.
 template <class T>
 struct BasicPassiveHinge {
   T stiffness = 0.0, rest = 0.0, damping = 0.0, friction = 0.0, friction_speed = 1.0;

@@ -61,7 +61,9 @@ void SpringKeys::fields(Fields& f) {
   f.number("damping", damping, {"N m s/rad", 0, 1e6, "Coefficient of a viscous damper. Only with drive: none."});
   f.number("friction", friction, {"N m", 0, 1e6, "Dry friction. Only with drive: none."});
   f.number("friction_speed", friction_speed,
-           {"rad/s", 1e-6, 1e3, "Speed below which dry friction is viscous. Only with drive: none."});
+           {"rad/s", 1e-6, 1e3,
+            "Speed below which dry friction is viscous, under explicit integrators; under the others the hinge sticks. Only "
+            "with drive: none."});
 }
 
 void HingeKeys::fields(Fields& f) {

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <optional>
+#include <utility>
+#include <vector>
 
 #include "core/files/file_kind.h"
 #include "core/settings/data_folder.h"
@@ -36,80 +39,135 @@ std::string path_of(const Node& name, const std::string& folder, Problems& probl
   return {};
 }
 
-/// The map `section` of a servo file, with the source of the file; a null node if there is none.
-Node section_of(const std::string& path, const std::string& section, const SourceLocation& asked_at, Problems& problems) {
+/// The map `section` of a servo file, and the file's source.
+struct ServoKeys {
+  Node keys;
+  std::string source;
+};
+
+/// Nothing, with a problem, if the file is wrong or has no such section.
+std::optional<ServoKeys> read_servo(const Node& name, const std::string& section, const std::string& folder,
+                                    Problems& problems) {
+  const std::string path = path_of(name, folder, problems);
+  if (path.empty()) return {};
   expect_kind(path, FileKind::servo);
-  const Node file = read_yaml(path, asked_at);
+  const Node file = read_yaml(path, name.place);
   const std::size_t before = problems.size();
   Reader reader(file, "servo file", problems, nullptr);
   reader.version("gaitlab_servo");
-  std::string name;
-  std::string source;
-  reader.text("name", name, "");
-  reader.text("source", source, "");
+  std::string own_name;
+  ServoKeys servo;
+  reader.text("name", own_name, "");
+  reader.text("source", servo.source, "");
   reader.require({"name", "source", "actuator"});
   for (const char* const one : kServoSections) reader.take(one);
   reader.finish();
+  if (problems.size() > before) return {};
   const Node* const found = file.find(section);
-  if (problems.size() > before || found == nullptr || found->kind != Node::Kind::map) return {};
-  Node keys = *found;
-  if (section != kServoSections[0]) return keys;
-  keys.keys.emplace_back("source", found->place);
-  keys.items.push_back(*file.find("source"));
-  return keys;
+  if (found == nullptr) {
+    problems.add(name.place, fmt::format("servo {} has no {}", in_quotes(name.text), section));
+    return {};
+  }
+  if (found->kind != Node::Kind::map) {
+    problems.add(found->place, fmt::format("{} is {}; expected a map", section, gaitlab::found(*found)));
+    return {};
+  }
+  if (const Node* const nested = found->find(kServoModel)) {
+    problems.add(nested->place, "a servo file cannot name another one; expected the keys themselves");
+    return {};
+  }
+  servo.keys = *found;
+  return servo;
 }
 
-void insert(Node& map, const std::string& section, const std::string& folder, Problems& problems) {
+/// Keys that exclude each other: a stated one takes the place of the other in a servo file.
+constexpr std::array<std::pair<const char*, const char*>, 5> kInstead{
+    {{"gain", "P"}, {"gain", "unit"}, {"P", "gain"}, {"efficiency", "stall_current"}, {"stall_current", "efficiency"}}};
+
+bool stated(const Node& map, const std::string& key) {
+  const auto instead = [&](const auto& one) { return one.second == key && map.find(one.first) != nullptr; };
+  return map.find(key) != nullptr || std::ranges::any_of(kInstead, instead);
+}
+
+/// Source of a map that states the keys `own` itself and takes the others from a servo file.
+std::string source_of(const std::vector<std::string>& own, const Node* stated, const std::string& of_file) {
+  if (own.empty()) return of_file;
+  const std::string keys = fmt::format("{}", fmt::join(own, ", "));
+  return stated != nullptr ? fmt::format("{}: {}; the rest: {}", keys, stated->text, of_file)
+                           : fmt::format("chosen: {}; the rest: {}", keys, of_file);
+}
+
+void put(Node& map, std::size_t at, const std::string& key, Node value) {
+  map.keys.emplace(map.keys.begin() + static_cast<std::ptrdiff_t>(at), key, value.place);
+  map.items.insert(map.items.begin() + static_cast<std::ptrdiff_t>(at), std::move(value));
+}
+
+void remove(Node& map, const Node* value) {
+  const auto at = value - map.items.data();
+  map.keys.erase(map.keys.begin() + at);
+  map.items.erase(map.items.begin() + at);
+}
+
+/// `of_hinge`: the map is that of a hinge, whose type is that of the module.
+void insert(Node& map, const std::string& section, bool of_hinge, const std::string& folder, Problems& problems) {
   const Node* const model = map.find(kServoModel);
   if (model == nullptr) return;
   const Node name = *model;
-  const auto at = static_cast<std::size_t>(model - map.items.data());
-  map.keys.erase(map.keys.begin() + static_cast<std::ptrdiff_t>(at));
-  map.items.erase(map.items.begin() + static_cast<std::ptrdiff_t>(at));
+  auto at = static_cast<std::size_t>(model - map.items.data());
+  remove(map, model);
   if (name.kind != Node::Kind::scalar) {
     problems.add(name.place, fmt::format("model is {}; expected the name of a servo (gaitlab list servo)", found(name)));
     return;
   }
-  const std::string path = path_of(name, folder, problems);
-  if (path.empty()) return;
-  const Node keys = section_of(path, section, name.place, problems);
-  if (keys.kind == Node::Kind::null) {
-    problems.add(name.place, fmt::format("servo {} has no {}", in_quotes(name.text), section));
-    return;
-  }
+  const std::optional<ServoKeys> servo = read_servo(name, section, folder, problems);
+  if (!servo) return;
   const Node* const type = map.find("type");
-  const Node* const own = keys.find("type");
+  const Node* const own = servo->keys.find("type");
   if (type != nullptr && own != nullptr && type->text != own->text) {
     Problem& problem = problems.add(name.place, fmt::format("servo {} is for {} {}, not {}", in_quotes(name.text), section,
                                                             in_quotes(own->text), in_quotes(type->text)));
     problem.notes.emplace_back(own->place, "its type is here");
     return;
   }
-  auto place = static_cast<std::ptrdiff_t>(at);
-  for (std::size_t i = 0; i < keys.items.size(); ++i) {
-    if (map.find(keys.keys[i].first) != nullptr) continue;
-    map.keys.insert(map.keys.begin() + place, keys.keys[i]);
-    map.items.insert(map.items.begin() + place, keys.items[i]);
-    ++place;
+  std::vector<std::string> stated_keys;
+  for (const auto& [key, place] : map.keys) {
+    if (key != "type" && key != "source") stated_keys.push_back(key);
+  }
+  const Node before = map;
+  for (std::size_t i = 0; i < servo->keys.items.size(); ++i) {
+    const std::string& key = servo->keys.keys[i].first;
+    if (stated(before, key) || (of_hinge && key == "type")) continue;
+    put(map, at++, key, servo->keys.items[i]);
+  }
+  if (section != kServoSections[0]) return;
+  const Node* const source = map.find("source");
+  Node text = source != nullptr ? *source : Node{Node::Kind::scalar, name.place};
+  text.text = source_of(stated_keys, source, servo->source);
+  text.quoted = true;
+  if (source != nullptr) remove(map, source);
+  put(map, map.items.size(), "source", std::move(text));
+}
+
+void insert_all(Node& document, bool of_hinge, const std::string& folder, Problems& problems) {
+  for (const char* const section : kServoSections) {
+    Node* const map = find(document, section);
+    if (map == nullptr || map->kind != Node::Kind::map) continue;
+    try {
+      insert(*map, section, of_hinge, folder, problems);
+    } catch (const InputError& error) {
+      add_all(error, problems);
+    }
   }
 }
 
 }  // namespace
 
 void insert_servos(Node& document, const std::string& folder, Problems& problems) {
-  for (const char* const section : kServoSections) {
-    Node* const map = find(document, section);
-    if (map == nullptr || map->kind != Node::Kind::map) continue;
-    try {
-      insert(*map, section, folder, problems);
-    } catch (const InputError& error) {
-      add_all(error, problems);
-    }
-  }
+  insert_all(document, false, folder, problems);
   Node* const hinges = find(document, "hinges");
   if (hinges == nullptr) return;
   for (Node& hinge : hinges->items) {
-    if (hinge.kind == Node::Kind::map) insert_servos(hinge, folder, problems);
+    if (hinge.kind == Node::Kind::map) insert_all(hinge, true, folder, problems);
   }
 }
 

@@ -13,8 +13,9 @@ namespace gaitlab {
 namespace {
 
 constexpr double kMostDeviations = 3;
-constexpr double kMostShare = 0.3;  // a factor that is three deviations low is then still 0.1
-constexpr double kMostAngle = 0.1;  // rad
+constexpr double kMostShare = 0.3;     // a factor that is three deviations low is then still 0.1
+constexpr double kMostFriction = 0.5;  // as much as chosen friction may be off
+constexpr double kMostAngle = 0.1;     // rad
 constexpr double kLeastFactor = 0.01;
 constexpr double kMostFactor = 100;
 
@@ -42,7 +43,9 @@ const std::array<Tolerance, 8> kTolerances{{
     {"foot_friction", share("Deviation of the friction coefficient under a module's contact elements, as a share.")},
     {"R", share("Deviation of the winding resistance of a motor, as a share.")},
     {"Kt", share("Deviation of the torque constant of a motor, as a share; its back-EMF constant follows.")},
-    {"gear_friction", share("Deviation of a gear's loss (1 - efficiency) and of a joint's friction, as a share.")},
+    {"gear_friction",
+     {"", 0, kMostFriction,
+      "Deviation of a gear's loss (1 - efficiency) and of a joint's friction, as a share. Draws are cut at a factor of 0.01."}},
     {"supply", share("Deviation of the motors' voltage limit, as a share; one draw for the whole robot, as for its battery.")},
 }};
 
@@ -126,6 +129,7 @@ std::size_t draw(AsBuilt& built, const Tolerances& tolerances, const Robot& robo
       } else if (deviation > 0) {
         const double normal = math::PhiloxStream(seed, parts[p] + "." + number.key).normal(0, 0);
         each[p] += deviation * std::clamp(normal, -kMostDeviations, kMostDeviations);
+        if (number.neutral == 1) each[p] = std::max(each[p], kLeastFactor);
         ++draws;
       }
     }

@@ -96,6 +96,10 @@ std::string elsewhere(const Catalog& catalog, const TypesInForce& types, const U
   std::vector<std::string> first = exact;
   std::erase_if(first, repeats);
   if (repeats(own)) return "";  // offers the keys of the section instead
+  const auto of_this_section = [&](const ScenarioKey& one) {
+    return one.plugin != nullptr && word(one.plugin->kind) == unknown.section && name_of_key(one.path) == unknown.key;
+  };
+  if (std::ranges::any_of(all, of_this_section)) return of_other_types(all, unknown.key);
   if (std::string found = did_you_mean(unknown, first); !found.empty()) return found;
   if (!unknown.near.empty()) return "";
   if (std::string found = of_other_types(all, unknown.key); !found.empty()) return found;

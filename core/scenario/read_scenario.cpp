@@ -63,8 +63,9 @@ class ScenarioReader {
     attempt([&] {
       for (std::string& note : drop_old_keys(root_, retyped, catalog_)) add_note(std::move(note));
     });
-    insert_servos(root_, folder_, problems_);
     tell_dropped_keys(sets);
+    take_servos();
+    raise();  // keys of a servo that is missing or wrong would be reported as missing
     read_name(head);
     read_body();
     read_sections();
@@ -86,10 +87,14 @@ class ScenarioReader {
   [[nodiscard]] Scenario with(const std::vector<std::string>& sets) const {
     if (sets.empty()) return scenario_;
     ScenarioReader own = *this;
+    for (const auto& [key, section] : with_models_) {
+      own.root_.items[static_cast<std::size_t>(root_.find(key) - root_.items.data())] = section;
+    }
     apply_sets(own.root_, sets, own.problems_);
-    insert_servos(own.root_, own.folder_, own.problems_);
     own.raise();
     own.tell_dropped_keys(sets);
+    own.take_servos();
+    own.raise();
     own.touched_ = TouchedSections(sections_of(sets));
     own.touched_.restart(own.scenario_);
     own.read_sections();
@@ -104,6 +109,16 @@ class ScenarioReader {
  private:
   void raise() const {
     if (!problems_.empty()) throw InputError(in_order(problems_.list(), path_));
+  }
+
+  /// Inserts the keys of servos that are given by name, and keeps the sections as they were before for with().
+  void take_servos() {
+    with_models_.clear();
+    for (const char* const section : {"actuator", "controller"}) {
+      const Node* const node = root_.find(section);
+      if (node != nullptr && node->find(kServoModel) != nullptr) with_models_.emplace_back(section, *node);
+    }
+    insert_servos(root_, folder_, problems_);
   }
 
   void add_note(std::string text) {
@@ -348,6 +363,7 @@ class ScenarioReader {
   std::shared_ptr<const std::vector<std::string>> joints_, modules_;  ///< names; null if the robot could not be read
   Note cpg_note_, source_note_;
   std::vector<Note> motor_notes_;
+  std::vector<std::pair<std::string, Node>> with_models_;  ///< sections that name a servo, as written
   TouchedSections touched_;
 };
 

@@ -209,8 +209,12 @@ std::string module_schema(const Catalog& catalog) {
   const Json heads = section_heads(sections);
   Json type = module_type_schema();
   std::string source;
+  std::string model;
   for (PluginFields* plugin : {&sections.actuator, &sections.controller}) {
-    plugin->host = [&](Fields& f) { f.text("source", source, "Origin of the values."); };
+    plugin->host = [&](Fields& f) {
+      f.text("model", model, "Name of a servo (gaitlab list servo), whose keys stand for those that are not stated.");
+      f.text("source", source, "Origin of the values.");
+    };
     const PluginKind& kind = describe(plugin->kind);
     Json& section = type["properties"][kind.section];
     Json head{{"description", section["description"]}, {"properties", heads[kind.section]["properties"]}};

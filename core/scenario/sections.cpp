@@ -56,7 +56,7 @@ void BaseFields::fields(Fields& f) {
 }
 
 void Supply::fields(Fields& f) {
-  f.number("voltage", voltage, {"V", 0, 1e6, "Open-circuit voltage; required."});
+  f.number("voltage", voltage, {"V", kPositive, 1e6, "Open-circuit voltage; required."});
   f.number("resistance", resistance, {"ohm", 0, 1e6, "Resistance of battery and wires."});
   f.number("current", current, {"A", 0, 1e6, "Largest continuous current, which check battery compares; 0: not stated."});
   f.number("capacity", capacity, {"A h", 0, 1e6, "Charge of the full battery; 0: not stated."});
@@ -293,6 +293,7 @@ SectionFields::SectionFields(Scenario& s, const Catalog* catalog, const Problems
     std::string name;
     if (!writing)
       f.text("model", name, "Name of a servo (gaitlab list servo), whose keys stand for those that are not stated.");
+    if (!name.empty()) f.problem("model", "a servo cannot change within a run; expected the keys that change");
   };
   actuator.host = [this, model, &s](Fields& f) {
     model(f);

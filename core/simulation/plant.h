@@ -104,6 +104,8 @@ class Plant {
   /// explicit, with the law CreepingFriction.
   /// `within`: time since the last change_joints(), s.
   virtual bool add_friction(In /*command*/, double /*within*/, Out /*torque*/) { return false; }
+  /// True if add_friction() also adds the dry friction of passive hinges, which is then set-valued.
+  [[nodiscard]] virtual bool holds_hinges() const { return false; }
   /// nullptr if the actuator evaluates its laws itself.
   [[nodiscard]] virtual MotorLaws* motor_laws() { return nullptr; }
 

@@ -39,8 +39,9 @@ void Sample::compute_hinges(const Robot& robot, const std::vector<std::size_t>& 
                                          : HingeHold::torque(state.q[j], state.qd[j], hold[j], HingeHold::grip(stuck_for[j]));
   }
   for (const std::size_t j : passive) {
-    const PassiveHinge hinge = law(*robot.joints[j].passive);
-    passive_torque[j] = hinge.spring(state.q[j]) + hinge.loss(state.qd[j]).torque;
+    PassiveHinge hinge = law(*robot.joints[j].passive);
+    if (sticks) hinge.friction = 0;
+    passive_torque[j] = hinge.spring(state.q[j]) + hinge.loss(state.qd[j]).torque + (sticks ? friction[j] : 0);
   }
 }
 

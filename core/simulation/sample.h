@@ -36,6 +36,7 @@ struct Sample {
   Sums sums;
   Vec3 gravity = Vec3::Zero();
   std::vector<double> setpoint, command, voltage, current, saturation, torque, friction, stop_torque, passive_torque;
+  bool sticks = false;              ///< true if `friction` of passive hinges is set-valued, and part of passive_torque
   std::vector<double> fault, hold;  ///< per joint: number of its fault; its angle if it is stuck, rad, else NaN
   std::vector<double> stuck_for;    ///< time that each joint has been stuck, s, as in Plant::change_joints
   double segment = 0;

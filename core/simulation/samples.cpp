@@ -45,6 +45,7 @@ Sample& Simulation::take_sample(Lane& lane, bool places) {
     s.bus_voltage = bus_[2 * l];
     s.bus_current = bus_[2 * l + 1];
   }
+  s.sticks = rubs_ && plant_->holds_hinges();
   lane.read_changes(s);
   s.compute_hinges(lane.robot, lane.passive);
   std::copy(lane.cpg_state.begin(), lane.cpg_state.end(), s.cpg.begin());

@@ -65,6 +65,9 @@ Simulation::Simulation(std::span<const Scenario> lanes, Records records, Role ro
   const DcMotor* const motors = actuator_ == nullptr ? nullptr : actuator_->dc_motors();
   rubs_ = actuator_ != nullptr && !actuator_->friction().empty();
   for (std::size_t i = 0; motors != nullptr && i < torque_.size(); ++i) rubs_ = rubs_ || motors[i].jumps > 0;
+  for (const auto& lane : lanes_) {
+    for (const std::size_t j : lane->passive) rubs_ = rubs_ || lane->robot.joints[j].passive->friction > 0;
+  }
   available_.assign(layout_.joints * lanes_.size(), 0.0);
   largest_.assign(layout_.joints * recorded_, 0.0);
   numbers_.assign(state_size(), 0.0);
@@ -178,7 +181,8 @@ void Simulation::set_start() {
     if (lane.cpg != nullptr) lane.cpg->start(lane.cpg_state);
     if (lane.controller != nullptr) lane.controller->start(lane.controller_state);
     for (std::size_t j = 0; actuator_ != nullptr && j < layout_.joints; ++j) {
-      lane.limit[j] = actuator_->command_limit()[j * lanes_.size() + l];
+      const bool duty = lane.controller != nullptr && lane.controller->command_unit() == "duty";
+      lane.limit[j] = duty ? 1 : actuator_->command_limit()[j * lanes_.size() + l];
     }
     if (!recorded(lane)) continue;
     const std::string_view unit = actuator_ == nullptr ? "" : actuator_->command_unit();

@@ -140,16 +140,20 @@ void Simulation::evaluate_motors(In speeds) {
   }
 }
 
-/// Computes joint torques at the present state under the commands in force: those of the motors, and friction_. `within`: time
-/// since the last call of apply_faults(), s.
+/// Computes the torques of motors at the present state under the commands in force, and friction_, which is part of them except
+/// for passive hinges. `within`: time since the last call of apply_faults(), s.
 void Simulation::evaluate_torques(double within) {
-  if (actuator_ == nullptr) return;
   const In speeds = plant_state_.subspan(layout_.speeds(), command_.size());
-  actuator_->effort(commands(), speeds, torque_, slope_);
+  if (actuator_ != nullptr) actuator_->effort(commands(), speeds, torque_, slope_);
   if (!rubs_) return;
   std::ranges::copy(torque_, friction_.begin());
-  if (!plant_->add_friction(commands(), within, torque_)) add_creeping(actuator_->friction(), speeds, torque_, slope_);
+  const bool added = plant_->add_friction(commands(), within, torque_);
+  if (!added && actuator_ != nullptr) add_creeping(actuator_->friction(), speeds, torque_, slope_);
   for (std::size_t i = 0; i < friction_.size(); ++i) friction_[i] = torque_[i] - friction_[i];
+  if (!plant_->holds_hinges()) return;
+  for (const std::size_t j : lanes_.front()->passive) {
+    for (std::size_t i = j * lanes_.size(); i < (j + 1) * lanes_.size(); ++i) torque_[i] -= friction_[i];
+  }
 }
 
 /// Torque available to the recorded lanes in a part of a step, in the direction of their torques, N m. Infinity if the actuator

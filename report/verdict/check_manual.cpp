@@ -33,7 +33,7 @@ std::vector<Meaning> meanings() {
            fmt::format(
                "A check fails, in a run that is accurate and shows the gait. In a run that is too short, or whose gait "
                "is not at full size, only a check of the whole run counts (fall, upright, stops, collision, in_ground, "
-               "gear_peak, docks, a rated speed), because more time cannot undo it. With a torque error above "
+               "brownout, gear_peak, docks, a rated speed), because more time cannot undo it. With a torque error above "
                "limits.torque_error (at most {}) and up to {}, only voltage, current, stall, heat, gears and docks "
                "count, and only if one fails even with its value reduced by the torque error of its joint. If friction or "
                "inertia of "

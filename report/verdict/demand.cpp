@@ -132,13 +132,16 @@ bool take_demand(Verdict& verdict, const std::string& json) try {
   for (const char* const same : {"verdict", "window"}) {
     if (old.at(same) != own.at(same)) return false;
   }
-  for (std::size_t i = 0; i < with.checks.size(); ++i) {
-    Check& check = with.checks[i];
+  const auto find = [](const Json& checks, const std::string& id) {
+    return std::ranges::find(checks, Json(id), [](const Json& one) { return one.at("id"); });
+  };
+  for (Check& check : with.checks) {
     if (check.id != "voltage" && check.id != "current") continue;
-    const auto of = std::ranges::find(old.at("checks"), Json(check.id), [](const Json& one) { return one.at("id"); });
+    const auto of = find(old.at("checks"), check.id);
     if (of == old.at("checks").end()) return false;
+    const auto here = find(own.at("checks"), check.id);
     for (const char* const same : {"status", "value", "limit", "worst", "parts"}) {
-      if (of->at(same) != own.at("checks")[i].at(same)) return false;
+      if (of->at(same) != here->at(same)) return false;
     }
     check.missing = of->at("missing").get<std::string>();
   }

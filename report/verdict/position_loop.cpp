@@ -94,22 +94,23 @@ std::vector<PositionLoop> position_loops(const Scenario& s) {
     loop.factor = angle.gain;
     loop.sharp = 1 / (volts * gains[j].N);
     loop.emf = motor.Ks * motor.gear;
-    loop.period = std::max(angle.period, s.control_period * static_cast<double>(gains[j].every));
+    loop.tick = s.control_period * static_cast<double>(gains[j].every);
+    loop.period = std::max(angle.period, loop.tick);
     loop.delay = angle.delay;
     loop.stiffness = angle.gain * Kp * per_volt;
     loop.stall = stall;
     loop.resolution = angle.resolution;
     loop.step = Kp * per_volt * angle.resolution;
-    const double damping = loop.Kd > 0 ? loop.Kd / (loop.Kd * loop.sharp + s.control_period) : 0;
-    const double integral = std::abs(volts * gains[j].I) * s.control_period;
+    const double damping = loop.Kd > 0 ? loop.Kd / (loop.Kd * loop.sharp + loop.tick) : 0;
+    const double integral = std::abs(volts * gains[j].I) * loop.tick;
     loop.bounded = loop.emf > 0 && std::max(damping, integral) <= kOtherParts * Kp;
   }
   return loops;
 }
 
-std::string commands_text(const Scenario& s, const PositionLoop& loop) {
-  std::string text = fmt::format("commands every {:.4g} s", s.control_period);
-  if (loop.period > s.control_period) text += fmt::format(", angles every {:.4g} s", loop.period);
+std::string commands_text(const PositionLoop& loop) {
+  std::string text = fmt::format("commands every {:.4g} s", loop.tick);
+  if (loop.period > loop.tick) text += fmt::format(", angles every {:.4g} s", loop.period);
   if (loop.delay > 0) text += fmt::format(", angles up to {:.4g} s old", loop.delay);
   return text;
 }
@@ -130,7 +131,7 @@ std::string loop_text(const Scenario& s, const std::vector<PositionLoop>& loops)
   const double most = nearest.Kp_of(1);
   if (!nearest.bounded || !(most > 0)) return text;
   return fmt::format("{}; the loop settles up to {:.4g} N m/rad ({}) with {}", text, nearest.stiffness * most / nearest.Kp,
-                     nearest.key_text(most), commands_text(s, nearest));
+                     nearest.key_text(most), commands_text(nearest));
 }
 
 }  // namespace gaitlab::report

@@ -36,6 +36,7 @@ struct PositionLoop {
   double sharp = 0;       ///< 1 / N, rad/V
   double emf = 0;         ///< Ks n, V s/rad
   double period = 0;      ///< T, s
+  double tick = 0;        ///< s, time between commands: the control period, or the servo's own sample time
   double delay = 0;       ///< s, largest age of an angle that is measured
   double stiffness = 0;   ///< k, N m/rad
   double stall = 0;       ///< largest torque at rest, N m
@@ -65,7 +66,7 @@ inline constexpr double kNeverSettles = 9;
 std::vector<PositionLoop> position_loops(const Scenario& scenario);
 
 /// `commands every 0.015 s, angles up to 0.03 s old`.
-std::string commands_text(const Scenario& scenario, const PositionLoop& loop);
+std::string commands_text(const PositionLoop& loop);
 
 /// Line of `gaitlab check`: `k = 38.2 N m/rad at every joint (Kp 100 V/rad); the loop settles up to 116.1 N m/rad (Kp 304
 /// V/rad) with commands every 0.015 s`. If joints differ: the range of k, and the numbers of the joint nearest to its bound.

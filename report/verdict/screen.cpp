@@ -127,8 +127,9 @@ std::vector<ScreenLine> first_screen(const RunData& run, const Verdict& verdict,
   std::vector<const Check*> warnings = of_status(verdict, CheckStatus::warn);
   std::erase_if(warnings, [](const Check* check) { return check->id == "created"; });  // printed beside the cost of transport
   add_kind(screen, warnings, 0, most, "warns", Tone::doubtful);
-  if (const auto open = of_status(verdict, CheckStatus::not_judged); !open.empty())
-    screen.add("unknown", names(open) + " (gaitlab explain verdict)");
+  std::vector<const Check*> open = of_status(verdict, CheckStatus::not_judged);
+  std::erase_if(open, [](const Check* check) { return !check->concerns; });
+  if (!open.empty()) screen.add("unknown", names(open) + " (gaitlab explain verdict)");
   if (const std::string text = gait(run); !text.empty()) screen.add("gait", text);
   const char* title = "changes";
   for (const ToldChange& change : told_changes(run.scenario, run.record.simulated)) {

@@ -119,7 +119,9 @@ std::string to_json(const Verdict& verdict) {
        {CheckStatus::pass, CheckStatus::warn, CheckStatus::fail, CheckStatus::too_close, CheckStatus::not_judged})
     counts[name_of(status)] = verdict.count(status);
   json["counts"] = counts;
-  for (const Check& c : verdict.checks) json["checks"].push_back(json_of(c));
+  for (const Check& c : verdict.checks) {
+    if (c.concerns) json["checks"].push_back(json_of(c));
+  }
   if (!verdict.faults.empty()) json["faults"] = verdict.faults;
   if (!verdict.demands.empty() || !verdict.demand_doubt.empty()) json["demand"] = demand_of(verdict);
   if (verdict.without_friction) json["without_chosen_friction"] = name_of(*verdict.without_friction);

@@ -97,12 +97,12 @@ void check_gain(const Scenario& s, const std::vector<PositionLoop>& loops, std::
   if (const double Kp = nearest->Kp_of(most); Kp > 0)
     remedies.push_back(fmt::format("{}: {:.4g} or less", nearest->key, two_digits(Kp / nearest->per_key)));
   const double period = nearest->period_of(most);
-  const bool own_period = nearest->delay > 0 || nearest->period > s.control_period;  // the period is that of the encoder
+  const bool own_period = nearest->delay > 0 || nearest->period > nearest->tick;  // the period is that of the encoder
   if (period > 0 && !own_period) remedies.push_back(fmt::format("controller.period: {:.4g} or less", two_digits(period)));
   out.push_back({s.nearest_place(fmt::format("controller.{}", nearest->key)),
                  fmt::format("{} {:.4g} of joint {} is {} for {}: the joint {} (gain {:.4g} per command, at most {:.3g}){}",
                              nearest->key, nearest->Kp / nearest->per_key, s.robot->joints[nearest->joint].name,
-                             severe ? "too large" : "large", commands_text(s, *nearest),
+                             severe ? "too large" : "large", commands_text(*nearest),
                              nearest->gain() > kNeverSettles ? "cannot settle"
                              : severe                        ? "may not settle"
                                                              : "overshoots",

@@ -181,6 +181,7 @@ TEST(AsBuilt, WrongInput) {
   };
   const std::map<std::string, std::string> messages{
       {"tolerances.mass=0.5", "mass is 0.5; expected 0 to 0.3"},
+      {"tolerances.gear_friction=0.6", "gear_friction is 0.6; expected 0 to 0.5"},
       {"tolerances.mass=-0.1", "mass is -0.1; expected 0 to 0.3"},
       {"tolerances.dock_angle=1", "dock_angle is 1 rad; expected 0 to 0.1 rad"},
       {"tolerances.dock_angle=5 deg", "dock_angle is '5 deg'; expected a number in rad"},

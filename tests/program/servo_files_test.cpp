@@ -47,7 +47,9 @@ TEST(ServoFiles, AKeyOfTheScenarioCountsFirst) {
   const Scenario s =
       scenario(with("type: servo, model: s3003, u_max: 6, source: measured", "type: rc_servo, model: mx-64, P: 64"));
   EXPECT_EQ(make_motors(s)->dc_motors()[0].u_max, 6);
-  EXPECT_TRUE(s.actuator_source.ends_with("the rest: measured")) << s.actuator_source;
+  EXPECT_TRUE(contains(s.actuator_source, "u_max: measured; the rest: Futaba S3003")) << s.actuator_source;
+  const Scenario chosen = scenario(with("type: servo, model: mx-64, stall_torque: 70"));
+  EXPECT_TRUE(contains(chosen.actuator_source, "chosen: stall_torque; the rest: Rhoban/bam")) << chosen.actuator_source;
   const auto controller = make_controller(s.controller, info(*s.robot));
   EXPECT_NEAR(controller->gains().at(0).P, 64 * 0.158, 1e-12);
 }
@@ -55,6 +57,35 @@ TEST(ServoFiles, AKeyOfTheScenarioCountsFirst) {
 TEST(ServoFiles, SetChangesTheServo) {
   const Scenario s = scenario(with("type: servo, model: s3003"), {"actuator.model=sg92r"});
   EXPECT_NEAR(make_motors(s)->dc_motors()[0].Ks, 4.8 / 8.7266, 1e-12);
+}
+
+TEST(ServoFiles, ARolloutWithAnotherServoIsThatOfThisServoAlone) {
+  const Folder folder;
+  const std::string file = folder.write("s.yaml", with("type: servo, model: s3003", "type: rc_servo, model: mx-64"));
+  const ScenarioTemplate all(file, {}, catalog());
+  for (const std::vector<std::string>& sets : {std::vector<std::string>{"actuator.model=ax-12"},
+                                               {"actuator.model=mx-64"},
+                                               {"controller.model=sts3215"},
+                                               {"controller.gain=3"},
+                                               {"controller.P=7"},
+                                               {"actuator.efficiency=0.5"}}) {
+    EXPECT_EQ(resolved(all.with(sets)), resolved(read_scenario(file, sets, catalog()))) << sets.front();
+  }
+}
+
+TEST(ServoFiles, AStatedGainTakesThePlaceOfP) {
+  const Scenario s =
+      scenario(with("type: servo, model: xl330-m288, efficiency: 0.5", "type: rc_servo, model: xl330-m288, gain: 3"));
+  EXPECT_EQ(make_controller(s.controller, info(*s.robot))->gains().at(0).P, 3);
+}
+
+TEST(ServoFiles, AHingeMayHaveItsOwnServo) {
+  std::string text = with("type: servo, model: ax-12");
+  text.replace(text.find("range: free"), 11, "range: free, actuator: {model: s3003}");
+  const std::string actuator = "actuator: {type: servo, model: ax-12}\n";
+  text.replace(text.rfind(actuator), actuator.size(), "");
+  text.replace(text.find("    name: rod\n"), 14, "    name: rod\n    " + actuator);
+  EXPECT_NEAR(make_motors(scenario(text))->dc_motors()[0].Ks, 4.8 / 4.553, 1e-12);
 }
 
 TEST(ServoFiles, AreFoundBesideTheScenario) {
@@ -70,7 +101,15 @@ TEST(ServoFiles, AreFoundBesideTheScenario) {
     read_scenario(file, {}, catalog());
     ADD_FAILURE();
   } catch (const InputError& error) {
-    EXPECT_TRUE(contains(error.what(), "servos/mine.yaml:4:25: error: unknown key 'volts'")) << error.what();
+    EXPECT_TRUE(contains(error.what(), "servos/mine.yaml:4:32: error: unknown key 'volts'")) << error.what();
+  }
+  folder.write("servos/mine.yaml", "gaitlab_servo: 1\nname: mine\nsource: a bench\nactuator: {type: servo, model: s3003}\n");
+  try {
+    read_scenario(file, {}, catalog());
+    ADD_FAILURE();
+  } catch (const InputError& error) {
+    ASSERT_EQ(error.problems().size(), 1U) << error.what();
+    EXPECT_TRUE(contains(error.what(), "a servo file cannot name another one")) << error.what();
   }
 }
 
@@ -80,6 +119,8 @@ TEST(ServoFiles, ErrorsNameTheNearestServo) {
   expect_no_servo(with("type: servo, model: s3003", "type: rc_servo, model: s3003"), "servo 's3003' has no controller");
   expect_no_servo(with("type: servo, model: [s3003]"), "model is a list; expected the name of a servo (gaitlab list servo)");
   expect_no_servo(with("type: servo, model: ./none.yaml"), "none.yaml");
+  expect_no_servo(with("type: servo, model: s3003", "type: rc_servo") + "at: [{t: 0.5, set: {controller.model: mx-64}}]\n",
+                  "a servo cannot change within a run; expected the keys that change");
 }
 
 }  // namespace

@@ -114,9 +114,19 @@ TEST(Supply, JointsThatStartTogetherBrownOutAndStaggeredOnesDoNot) {
   EXPECT_EQ(down.status, report::CheckStatus::fail) << down.text;
   EXPECT_GT(down.value, 7.4 - 6);
   EXPECT_EQ(down.first_part, "m0/h0");
-  EXPECT_TRUE(contains(down.text, "the electronics stop below 6 V")) << down.text;
+  EXPECT_TRUE(contains(down.text, "below the 6 V that the electronics need for 0.")) << down.text;
+  EXPECT_TRUE(together.why().starts_with("the bus sags to")) << together.why();
   const report::Verdict staggered = judged(rods(0.3));
   EXPECT_EQ(check(staggered, "brownout").status, report::CheckStatus::pass) << check(staggered, "brownout").text;
+}
+
+TEST(Supply, IsReadBackFromTheRun) {
+  const Folder folder;
+  folder.write("s.yaml", rods(0));
+  EXPECT_EQ(gaitlab("run s.yaml --out r --no-report --quiet", folder.path().string()).code, 0);
+  const Result again = gaitlab("report r", folder.path().string());
+  EXPECT_TRUE(contains(again.out, "infeasible: the bus sags to")) << again.out << again.err;
+  EXPECT_FALSE(contains(again.err, "belongs to another")) << again.err;
 }
 
 TEST(Supply, IsFoundAtItsTick) {

@@ -119,6 +119,14 @@ CPGS = ["sine", "hopf", "kuramoto_amplitude", "matsuoka", "phase_oscillator", "v
 GAITS = {"frequency": (0.8, 1.25), "amplitude": (0.75, 1.2)}
 
 
+# The bus is recomputed from rows at control ticks (told/battery.py).
+BUS = FAST + ["trace.period=0.015", "trace.columns=[t, joint.*, base.*, com.*, supply.*]"]
+SUPPLIED = {
+    "caterpillar, battery": ("caterpillar", BUS + ["duration=12", "supply={voltage: 7.4, resistance: 0.3, current: 2, least: 6.6}"]),
+    "hexapod, brown-out": ("hexapod", BUS + ["duration=6", "cpg.frequency=0.8", "supply={voltage: 7.4, resistance: 1.2, current: 1, least: 6}"]),
+}
+
+
 def random_tree(rng, count):
     """Docks of a random robot of M-TRAN modules."""
     rows, free = [], [(0, face) for face in (0, 1, 2, 3, 4, 5)]
@@ -217,4 +225,4 @@ def plan(seed):
         texts = [TREE.format(name=f"random-{k}", docks=random_tree(rng, rng.randint(3, 6)), cpg=rng.choice(CPGS),
                              lag=f"{rng.uniform(0, 2):.3f}") for _ in range(20)]
         out.append((f"random {k}", texts, FAST))
-    return out + [(name, *run) for runs in (UNBORNE, LATER) for name, run in runs.items()]
+    return out + [(name, *run) for runs in (UNBORNE, LATER, SUPPLIED) for name, run in runs.items()]

@@ -137,6 +137,9 @@ JUDGED = {
     "heat": r"the motor of joint {worst} takes {value:.3g} A RMS, {share:pct} of its continuous rating" + WITHIN,
     "gear_peak": r"the gear of joint {worst} passes on up to {value:.3g} N m \(rated {limit:.3g} N m\)" + WITHIN,
     "gear_continuous": r"the gear of joint {worst} takes {value:.3g} N m RMS \(rated {limit:.3g} N m\)" + WITHIN,
+    "brownout": r"the bus sags to {least:.4g} V of {open:.4g} V(?:, below the {stops:.4g} V that the electronics need for {low:.3g} s, "
+                r"first at {first:.2f} s; {first_part} draws the most then)?",
+    "battery": r"the motors take {value:.3g} A RMS and at most {peak:.3g} A from the supply, {share:pct} of its largest current",
     "tracking": r"joint {worst} is up to {value:th} rad from its set point",
     "stops": r"no joint leaves its range"
              r"|no joint with a motor leaves its range; {worst} without a motor is up to " + RESTS +

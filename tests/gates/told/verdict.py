@@ -3,7 +3,7 @@ import math
 
 import numpy as np
 
-from told import bodies, motors, trust
+from told import battery, bodies, motors, trust
 from told.check import Told, graded, margin
 from told.sentences import LACKS, NO_MOTORS, RESTS_ON, TORN, read, same
 from told.shapes import Collisions, depths
@@ -11,9 +11,9 @@ from told.window import Window, limit_cycle
 
 GROUPS = {"motor": ("voltage", "current", "envelope", "speed", "stall", "heat", "gear_peak", "gear_continuous"),
           "trust": ("periodic", "evidence", "torque_error", "predictable", "ledger", "created", "supply", "step", "coarse", "law")}
-WHOLE = {"outcome", "fall", "upright", "gear_peak", "stops", "setpoints", "start", "collision", "dock_tension", "dock_shear",
+WHOLE = {"outcome", "brownout", "fall", "upright", "gear_peak", "stops", "setpoints", "start", "collision", "dock_tension", "dock_shear",
          "dock_bending", "dock_torsion", "in_ground", "field", "torque_error", "predictable", "ledger", "created", "supply", "step", "coarse", "law"}
-CAN_FAIL = {"outcome", "fall", "progress", "upright", "voltage", "current", "speed", "stall", "heat", "gear_peak", "gear_continuous",
+CAN_FAIL = {"outcome", "fall", "progress", "upright", "voltage", "current", "speed", "stall", "heat", "gear_peak", "gear_continuous", "brownout", "battery",
             "tracking", "stops", "collision", "dock_tension", "dock_shear", "dock_bending", "dock_torsion", "in_ground"}
 
 # Kinds of missing evidence, and words of their sentences.
@@ -98,6 +98,7 @@ class Judged:
             "upright": bodies.upright(r, w, e.period), "voltage": motors.at_limit(r, w, "voltage"),
             "current": motors.at_limit(r, w, "current"), "envelope": motors.envelope(r, w), "speed": motors.speed(r, w),
             "stall": motors.stall(r, w), "heat": motors.heat(r, w), "gear_peak": motors.gear_peak(r, w), "gear_continuous": motors.gear_continuous(r, w),
+            "brownout": battery.brownout(r), "battery": battery.battery(r, w),
             "tracking": motors.tracking(r, w), "stops": motors.stops(r, w), "setpoints": motors.setpoints(r, w),
             "start": motors.start(r, w), "collision": collision(r) if whole else None,
             "dock_tension": bodies.dock(r, "tension"), "dock_shear": bodies.dock(r, "shear"),
