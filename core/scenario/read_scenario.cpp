@@ -64,8 +64,9 @@ class ScenarioReader {
       for (std::string& note : drop_old_keys(root_, retyped, catalog_)) add_note(std::move(note));
     });
     tell_dropped_keys(sets);
+    const std::size_t before = problems_.size();
     take_servos();
-    raise();  // keys of a servo that is missing or wrong would be reported as missing
+    if (problems_.size() > before) raise();  // keys of a servo that is missing or wrong would be reported as missing
     read_name(head);
     read_body();
     read_sections();
