@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <utility>
 
 namespace gaitlab::controllers {
@@ -159,9 +158,8 @@ void RcServo::update(const Measured& m, In setpoint, In, Out x, Out command) con
   const double period = m.period * static_cast<double>(s_.every);
   double* at = x.data() + 1;
   for (std::size_t j = 0; j < joints_; ++j) {
-    Joint joint;
-    std::memcpy(&joint, at, sizeof joint);
-    double* const on_way = at + sizeof(Joint) / sizeof(double);
+    Joint joint{at[0], at[1], at[2], at[3], at[4]};
+    double* const on_way = at + kJointStates;
     at = on_way + on_way_;
     if (tick == 0) {
       joint.goal = m.angle[j];
@@ -174,7 +172,7 @@ void RcServo::update(const Measured& m, In setpoint, In, Out x, Out command) con
       this->command(j, joint.goal - m.angle[j], period, tick == 0, joint);
     }
     command[j] = joint.duty;
-    std::memcpy(on_way - sizeof(Joint) / sizeof(double), &joint, sizeof joint);
+    std::ranges::copy(std::array{joint.goal, joint.speed, joint.integral, joint.last_error, joint.duty}, on_way - kJointStates);
   }
   x[0] = static_cast<double>(tick + 1);
 }

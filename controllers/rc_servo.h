@@ -26,7 +26,7 @@ class RcServo final : public Controller {
   RcServo(const RobotInfo& robot, Settings settings);
   [[nodiscard]] std::string_view command_unit() const override { return "duty"; }
   /// Number of states: the count of ticks, then for every joint a Joint and its goals on the way.
-  [[nodiscard]] std::size_t states() const override { return 1 + joints_ * (sizeof(Joint) / sizeof(double) + on_way_); }
+  [[nodiscard]] std::size_t states() const override { return 1 + joints_ * (kJointStates + on_way_); }
   void start(Out x) const override;
   [[nodiscard]] std::vector<PositionGains> gains() const override;
   void update(const Measured& measured, In setpoint, In command_limit, Out x, Out command) const override;
@@ -37,6 +37,7 @@ class RcServo final : public Controller {
     double goal = 0, speed = 0;                     ///< of the profile: rad, rad/s
     double integral = 0, last_error = 0, duty = 0;  ///< duty, rad, duty
   };
+  static constexpr std::size_t kJointStates = 5;
   void follow(std::size_t joint, double goal, double period, Joint& x) const;
   void command(std::size_t joint, double error, double period, bool first, Joint& x) const;
 

@@ -18,12 +18,9 @@ struct ShippedKind {
   std::array<const char*, 2> folders;
   const char* ending;
 };
-constexpr ShippedKind kShipped[] = {{"module", {"modules", nullptr}, ".yaml"},
-                                    {"robot", {"robots", nullptr}, ".dat"},
-                                    {"servo", {"servos", nullptr}, ".yaml"},
-                                    {"scenario", {".", "library"}, ".yaml"},
-                                    {"study", {"studies", nullptr}, ".yaml"},
-                                    {"recipe", {"figures", nullptr}, ".yaml"}};
+constexpr ShippedKind kShipped[] = {{"module", {"modules", nullptr}, ".yaml"}, {"robot", {"robots", nullptr}, ".dat"},
+                                    {"servo", {"servos", nullptr}, ".yaml"},   {"scenario", {".", "library"}, ".yaml"},
+                                    {"study", {"studies", nullptr}, ".yaml"},  {"recipe", {"figures", nullptr}, ".yaml"}};
 
 }  // namespace
 
