@@ -8,8 +8,8 @@
 namespace gaitlab {
 
 inline constexpr std::string_view kTraceFormat = "gaitlab-trace-1";
-inline constexpr const char* kBeside[] = {"rest",   "ticks", "loads",  "poses",
-                                          "spread", "draws", "joints", "run"};  ///< tables of `/recording`
+inline constexpr const char* kBeside[] = {"rest",  "ticks",  "loads",  "poses", "spread",
+                                          "draws", "supply", "joints", "run"};  ///< tables of `/recording`
 inline constexpr std::size_t kUserBlock = 512;  ///< bytes before the HDF5 part; the smallest number that HDF5 allows
 
 /// Returns the file with an empty user block. Throws ImageError. Only one thread at a time uses HDF5; other threads wait.

@@ -7,6 +7,7 @@ namespace gaitlab::report {
 namespace {
 
 constexpr const char* kNoSupply = "the scenario states no supply";
+constexpr const char* kNoNumbers = "the run has no finite numbers of the supply";
 constexpr const char* kSpread = "joints that start one after another, or a battery with less resistance";
 
 /// Sets Check::first to the first time at which the bus is below `least`, and Check::first_part to the joint that was first
@@ -28,7 +29,9 @@ void judge_voltage(const CheckedRun& run, Check& made) {
   const Supply& supply = run.scenario.supply;
   made.text = kNoSupply;
   const std::optional<BusUse> use = bus_use(run.record, 0);
-  if (!supply.any() || !use) return;
+  if (!supply.any()) return;
+  made.text = kNoNumbers;
+  if (!use) return;
   made.text = "the supply states no least voltage (supply.least)";
   if (!(supply.least > 0) && use->held) return;
   made.value = supply.voltage - use->voltage_least;
@@ -50,7 +53,9 @@ void judge_current(const CheckedRun& run, Check& made) {
   const Supply& supply = run.scenario.supply;
   made.text = kNoSupply;
   const std::optional<BusUse> use = bus_use(run.record, run.summary.judged.first_row);
-  if (!supply.any() || !use) return;
+  if (!supply.any()) return;
+  made.text = kNoNumbers;
+  if (!use) return;
   made.text = "the supply states no largest current (supply.current)";
   if (!(supply.current > 0)) return;
   made.value = use->current_rms;
