@@ -72,7 +72,15 @@ void insert(Node& map, const std::string& section, const std::string& folder, Pr
   }
   const std::string path = path_of(name, folder, problems);
   if (path.empty()) return;
-  const Node keys = section_of(path, section, name.place, problems);
+  Problems found_in_file;
+  Node keys;
+  try {
+    keys = section_of(path, section, name.place, found_in_file);
+  } catch (const InputError& error) {
+    add_all(error, found_in_file);
+  }
+  add_found(found_in_file, {path, folder, "servo file", "gaitlab_servo"}, problems);
+  if (found_in_file.size() > 0) return;
   if (keys.kind == Node::Kind::null) {
     problems.add(name.place, fmt::format("servo {} has no {}", in_quotes(name.text), section));
     return;
@@ -100,11 +108,7 @@ void insert_servos(Node& document, const std::string& folder, Problems& problems
   for (const char* const section : kServoSections) {
     Node* const map = find(document, section);
     if (map == nullptr || map->kind != Node::Kind::map) continue;
-    try {
-      insert(*map, section, folder, problems);
-    } catch (const InputError& error) {
-      add_all(error, problems);
-    }
+    insert(*map, section, folder, problems);
   }
   Node* const hinges = find(document, "hinges");
   if (hinges == nullptr) return;
