@@ -91,10 +91,12 @@ void check_fit(const std::string& run, const Scenario& scenario, const Recording
   if (recording.joints.size() != joints) refuse(fmt::format("{} joints, {} in the scenario", recording.joints.size(), joints));
   const std::size_t columns = recording.poses.columns.size();
   if (columns != pose_columns(joints).size()) refuse(fmt::format("{} columns of poses, of {} joints", columns, joints));
-  const Trace& bus = recording.supply;
-  if (scenario.supply.any() && (bus.columns.size() != supply_columns().size() || bus.rows() != recording.ticks.rows()))
-    refuse(fmt::format("{} rows of {} columns of the supply, {} rows of ticks", bus.rows(), bus.columns.size(),
-                       recording.ticks.rows()));
+  if (recording.ticks.columns.size() != tick_columns(joints).size()) {
+    refuse(fmt::format("{} columns of ticks, of {} joints", recording.ticks.columns.size(), joints));
+  }
+  if (recording.ticks.rows() > 0 && scenario.supply.any() == recording.supply.columns.empty()) {
+    refuse(scenario.supply.any() ? "there is no table of the scenario's supply" : "the scenario has no supply");
+  }
   const bool contact = recording.worst.source == Stability::Source::contact;
   const std::size_t places = contact ? contact_elements(*scenario.robot, scenario.contact.on).size() : joints;
   if (recording.worst.rate > 0 && recording.worst.index >= places) {

@@ -148,6 +148,24 @@ void take_numbers(const fs::path& file, const Trace& joints, const Trace& run, R
   });
 }
 
+/// Requires a table with the times of `ticks`. The tables of a run that ended early may end with different ticks.
+void require_rows_of_ticks(const fs::path& file, const Recording& r, const Trace& table, const char* name) {
+  if (!r.outcome.done()) return;
+  bool same = table.rows() == r.ticks.rows();
+  for (std::size_t k = 0; same && k < table.rows(); ++k) same = table.at(k, 0) == r.ticks.at(k, 0);
+  if (!same) throw unfit(file, fmt::format("the times of /recording/{} are not those of /recording/ticks", name));
+}
+
+/// Requires the columns and the rows of a supply, which its checks read by their numbers.
+void check_supply(const fs::path& file, const Recording& r) {
+  if (r.supply.columns.empty()) return;
+  const auto same = [](const Column& a, const Column& b) { return a.name == b.name; };
+  if (!std::ranges::equal(r.supply.columns, supply_columns(), same)) {
+    throw unfit(file, "the columns of /recording/supply are not those of a supply");
+  }
+  require_rows_of_ticks(file, r, r.supply, "supply");
+}
+
 /// Moves tables of tables() back into the recording.
 void take_tables(const fs::path& file, std::vector<Beside>& beside, Recording& r) {
   const auto find = [&](const char* name) { return std::ranges::find(beside, name, &Beside::name); };
@@ -163,6 +181,8 @@ void take_tables(const fs::path& file, std::vector<Beside>& beside, Recording& r
   if (find("spread") != beside.end()) r.spread = take("spread");
   if (find("draws") != beside.end()) r.draws = take("draws");
   if (find("supply") != beside.end()) r.supply = take("supply");
+  check_supply(file, r);
+  require_rows_of_ticks(file, r, r.poses, "poses");
   const Trace joints = take("joints");
   const Trace run = take("run");
   take_numbers(file, joints, run, r);

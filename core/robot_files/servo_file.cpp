@@ -45,13 +45,11 @@ struct ServoKeys {
   std::string source;
 };
 
-/// Nothing, with a problem, if the file is wrong or has no such section.
-std::optional<ServoKeys> read_servo(const Node& name, const std::string& section, const std::string& folder,
+/// Nothing, with a problem, if the file is wrong; no keys if it has no such section.
+std::optional<ServoKeys> read_servo(const std::string& path, const std::string& section, const SourceLocation& asked_at,
                                     Problems& problems) {
-  const std::string path = path_of(name, folder, problems);
-  if (path.empty()) return {};
   expect_kind(path, FileKind::servo);
-  const Node file = read_yaml(path, name.place);
+  const Node file = read_yaml(path, asked_at);
   const std::size_t before = problems.size();
   Reader reader(file, "servo file", problems, nullptr);
   reader.version("gaitlab_servo");
@@ -64,10 +62,7 @@ std::optional<ServoKeys> read_servo(const Node& name, const std::string& section
   reader.finish();
   if (problems.size() > before) return {};
   const Node* const found = file.find(section);
-  if (found == nullptr) {
-    problems.add(name.place, fmt::format("servo {} has no {}", in_quotes(name.text), section));
-    return {};
-  }
+  if (found == nullptr) return servo;
   if (found->kind != Node::Kind::map) {
     problems.add(found->place, fmt::format("{} is {}; expected a map", section, gaitlab::found(*found)));
     return {};
@@ -119,8 +114,21 @@ void insert(Node& map, const std::string& section, bool of_hinge, const std::str
     problems.add(name.place, fmt::format("model is {}; expected the name of a servo (gaitlab list servo)", found(name)));
     return;
   }
-  const std::optional<ServoKeys> servo = read_servo(name, section, folder, problems);
+  const std::string path = path_of(name, folder, problems);
+  if (path.empty()) return;
+  Problems found_in_file;
+  std::optional<ServoKeys> servo;
+  try {
+    servo = read_servo(path, section, name.place, found_in_file);
+  } catch (const InputError& error) {
+    add_all(error, found_in_file);
+  }
+  add_found(found_in_file, {path, folder, "servo file", "gaitlab_servo"}, problems);
   if (!servo) return;
+  if (servo->keys.kind == Node::Kind::null) {
+    problems.add(name.place, fmt::format("servo {} has no {}", in_quotes(name.text), section));
+    return;
+  }
   const Node* const type = map.find("type");
   const Node* const own = servo->keys.find("type");
   if (type != nullptr && own != nullptr && type->text != own->text) {
@@ -152,11 +160,7 @@ void insert_all(Node& document, bool of_hinge, const std::string& folder, Proble
   for (const char* const section : kServoSections) {
     Node* const map = find(document, section);
     if (map == nullptr || map->kind != Node::Kind::map) continue;
-    try {
-      insert(*map, section, of_hinge, folder, problems);
-    } catch (const InputError& error) {
-      add_all(error, problems);
-    }
+    insert(*map, section, of_hinge, folder, problems);
   }
 }
 

@@ -24,7 +24,7 @@ struct DefaultFigure {
   double value;
 };
 /// Default values of the settings of a plugin that may differ from joint to joint: values other than 0, and limits. Settings
-/// that all joints share belong to the law and are not included.
+/// that all joints share belong to the law and are not included. A value that follows from other settings is kNotStated.
 std::vector<DefaultFigure> default_figures(const Entry& entry);
 
 /// Text such as `chosen: R, Kt by default of dc_motor`, for values that are plugin defaults instead of values of a real motor.

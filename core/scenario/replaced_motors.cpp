@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/plugin/fields.h"
 #include "core/scenario/section_places.h"
 #include "core/settings/wording.h"
 
@@ -19,7 +20,8 @@ ReplacedMotors::ReplacedMotors(const Node& root, const Scenario& scenario, const
   std::vector<std::string> assumed;  // keys with a default other than 0 that the section does not set
   for (const DefaultFigure& one : default_figures(entry)) {
     if (section != nullptr && section->find(one.key) != nullptr) continue;
-    defaults_.push_back(fmt::format("{} {}", one.key, with_unit(one.value, one.unit)));
+    const bool follows = one.value == kNotStated;  // from other figures, as the manual of the actuator states
+    defaults_.push_back(follows ? one.key : fmt::format("{} {}", one.key, with_unit(one.value, one.unit)));
     if (one.value != 0) assumed.push_back(one.key);
   }
   for (const auto& [key, place] : section == nullptr ? std::vector<std::pair<std::string, SourceLocation>>() : section->keys)

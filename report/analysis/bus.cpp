@@ -11,6 +11,7 @@ std::optional<BusUse> bus_use(const Recording& record, std::size_t first) {
   BusUse made;
   made.voltage_least = INFINITY;
   for (std::size_t k = first + 1; k < bus.rows(); ++k) {
+    if (!std::ranges::all_of(bus.row(k), [](double value) { return std::isfinite(value); })) return {};
     if (bus.at(k, kLeastVoltage) < made.voltage_least) {
       made.voltage_least = bus.at(k, kLeastVoltage);
       made.least_time = bus.at(k, 0);

@@ -94,6 +94,7 @@ class ToldPoses {
   [[nodiscard]] Mat3 upright() const {
     Mat3 sum = Mat3::Zero();
     for (std::size_t i = 0; i < robot_.links.size(); ++i) sum += robot_.links[i].mass * start_.R[i] * k_.R[i].transpose();
+    if (!sum.allFinite()) return Mat3::Identity();  // Eigen leaves the parts of such a matrix uninitialised
     const Eigen::JacobiSVD<Mat3> parts(sum, Eigen::ComputeFullU | Eigen::ComputeFullV);
     Mat3 u = parts.matrixU();
     const Mat3& v = parts.matrixV();

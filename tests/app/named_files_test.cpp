@@ -45,6 +45,10 @@ TEST_F(NamedFiles, OfOtherFoldersAreNotQuoted) {
         "secret.dat:1:1: error: is not a file of heights");
   hides(said(two, "cpg: {type: table, model: {file: ../secret.dat}}\n"),
         "theirs/s.yaml:4:13: error: cpg does not take the file 'secret.dat'");
+  hides(said(two, "controller: {type: rc_servo, model: ../secret.yaml}\n"), "secret.yaml:1:1: error: is not a servo file");
+  fs::create_directory(folder_ / "theirs/servos");
+  fs::create_symlink("../../secret.yaml", folder_ / "theirs/servos/link.yaml");
+  hides(said(two, "controller: {type: rc_servo, model: link}\n"), "theirs/servos/link.yaml:1:1: error: is not a servo file");
   folder_.write("theirs/study.yaml",
                 "gaitlab_study: 1\nscenario: ../secret.yaml\nparameters: {a: {low: 0, high: 1}}\nbudget: {runs: 2}\n");
   hides(told("sweep theirs/study.yaml"), "secret.yaml:1:1: error: is not a scenario");

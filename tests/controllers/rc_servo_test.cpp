@@ -125,6 +125,10 @@ TEST(RcServo, ProfileIsThatOfUniformAcceleration) {
   FedServo even(settings, 0.125);
   EXPECT_EQ(even(2), 0.5);
   EXPECT_EQ(even(2), 1);
+  settings.speed_limit.common = 0;
+  settings.acceleration_limit.common = 16;
+  FedServo steep(settings, 0.125);
+  EXPECT_EQ(steep(2), 0.25) << "16 rad/s^2 for a sample of 1/8 s";
 }
 
 TEST(RcServo, UnitsOfTheMakers) {

@@ -38,6 +38,7 @@ TEST_P(ReadBack, GivesTheSameSummaryAndFigure) {
   const std::string summary = read(folder / "run/summary.json");
   ASSERT_FALSE(summary.empty()) << ran.err;
   EXPECT_EQ(read(folder / "again/summary.json"), summary);
+  EXPECT_EQ(read(folder / "again/verdict.json"), read(folder / "run/verdict.json"));
   EXPECT_EQ(read(folder / "again/figure.svg"), read(folder / "run/figure.svg"));
   EXPECT_TRUE(read(folder / "again/report.html") == read(folder / "run/report.html"));
   // Output of the terminal without the lines on the command, page and files, which name paths.
@@ -54,6 +55,9 @@ INSTANTIATE_TEST_SUITE_P(
                     Kept{"rubble", "rubble.yaml", "--set duration=0.4"},
                     Kept{"no_columns", "hexapod.yaml", "--set duration=0.3 --set trace.columns=[]"},
                     Kept{"one_column", "hexapod.yaml", "--set duration=0.1 --set trace.columns=[joint.3.angle]"},
+                    Kept{"supply", "hexapod.yaml",
+                         "--set duration=0.3 --set physics.engine=articulated --set supply.voltage=7.4 --set "
+                         "supply.resistance=0.2 --set supply.least=7.3"},
                     Kept{"csv", "caterpillar.yaml", "--set duration=0.3 --format csv"},
                     Kept{"no_motors", "pendulum.yaml", "--set duration=2"},
                     Kept{"all_columns", "hexapod.yaml", "--set duration=0.1 --set 'trace.columns=[\"*\"]' --format csv"},
@@ -259,6 +263,32 @@ TEST(Recordings, ThatDoNotFitTogetherAreRefused) {
   EXPECT_EQ(complaint(beside), file + ": error: is corrupt: stability.index is -1");
 }
 
+/// The checks of the supply read its table by the numbers of its columns.
+TEST(Recordings, ASupplyOfAnotherFormIsRefused) {
+  const Folder folder;
+  const Recording r = run(shipped("hexapod.yaml", {"duration=0.05", "physics.engine=articulated", "supply.voltage=7.4"}));
+  const auto complaint = [&](const auto& change) {
+    Recording changed = r;
+    change(changed.supply);
+    write_recording(changed, {"", 0, "", "done"}, "h5", folder.path());
+    return message_of([&] { read_recording(folder.path()); });
+  };
+  EXPECT_EQ(complaint([](Trace&) {}), kNoError);
+  const std::string corrupt = folder / "trace.h5" + ": error: is corrupt: ";
+  EXPECT_EQ(complaint([](Trace& supply) {
+              supply.columns.change([](auto& columns) { columns.pop_back(); });
+              supply.values.resize(supply.columns.size());
+            }),
+            corrupt + "the columns of /recording/supply are not those of a supply");
+  EXPECT_EQ(complaint([](Trace& supply) {
+              supply.columns.change([](auto& columns) { std::swap(columns[1].name, columns[2].name); });
+            }),
+            corrupt + "the columns of /recording/supply are not those of a supply");
+  const std::string unlike = corrupt + "the times of /recording/supply are not those of /recording/ticks";
+  EXPECT_EQ(complaint([](Trace& supply) { supply.values.resize(supply.columns.size()); }), unlike);
+  EXPECT_EQ(complaint([](Trace& supply) { supply.values[0] = 1; }), unlike);
+}
+
 /// If the ticks exceed the largest number of rows, pairs of rows are merged. Peaks and sums are preserved.
 TEST(Ticks, AreHalvedWhereThereAreMany) {
   const Scenario s = scenario(R"(
@@ -357,6 +387,19 @@ TEST(Recordings, OfAnotherRobotAreRefused) {
   forged.trace.columns.change([&](auto& columns) { columns[forged.trace.find("base.x")].name = "base.u"; });
   EXPECT_EQ(complaint(forged, "hexapod.yaml"),
             ".: error: its recording does not fit its scenario: columns that every recording contains are missing" + kRemedy);
+}
+
+/// Without its table a run that fails by its supply would be feasible.
+TEST(Recordings, WithoutTheSupplyOfTheirScenarioAreRefused) {
+  const Folder folder;
+  const Scenario powered = shipped("hexapod.yaml", {"duration=0.02", "physics.engine=articulated", "supply.voltage=7.4"});
+  Recording r = run(powered);
+  r.supply = {};
+  write_recording(r, {resolved(powered), 1, "", "done"}, "h5", folder.path());
+  const Result result = gaitlab("report .", folder.path());
+  EXPECT_EQ(result.code, 2);
+  EXPECT_EQ(result.err,
+            ".: error: its recording does not fit its scenario: there is no table of the scenario's supply" + kRemedy);
 }
 
 }  // namespace

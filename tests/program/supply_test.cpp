@@ -129,6 +129,18 @@ TEST(Supply, IsReadBackFromTheRun) {
   EXPECT_FALSE(contains(again.err, "belongs to another")) << again.err;
 }
 
+TEST(Supply, NumbersThatAreNotFiniteAreNoEvidence) {
+  const Scenario s = scenario(rods(0.3));
+  Recording r = run(s);
+  r.supply.values[r.supply.columns.size() * 3 + kLeastVoltage] = NAN;
+  const report::Verdict v = report::verdict(s, r, report::summarise(s, r, 0), report::overlaps(s, r));
+  for (const char* id : {"brownout", "battery"}) {
+    const report::Check& check = *std::ranges::find(v.checks, id, &report::Check::id);
+    EXPECT_EQ(check.status, report::CheckStatus::not_judged) << id;
+    EXPECT_EQ(check.text, "the run has no finite numbers of the supply");
+  }
+}
+
 TEST(Supply, IsFoundAtItsTick) {
   // At rest all duties are the same step: I = 6 d^2 V / R, so that V = V0 / (1 + 6 r d^2 / R), with d = 1 from 6 (e) > 1 on.
   const Scenario s = scenario(rods(0));

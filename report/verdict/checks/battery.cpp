@@ -7,6 +7,7 @@ namespace gaitlab::report {
 namespace {
 
 constexpr const char* kNoSupply = "the scenario states no supply";
+constexpr const char* kNoNumbers = "the run has no finite numbers of the supply";
 constexpr const char* kSpread = "let the joints start one after another, or take a battery with less resistance";
 
 /// Rows of the bus in which the electronics stop.
@@ -43,7 +44,9 @@ void judge_voltage(const CheckedRun& run, Check& made) {
   made.concerns = supply.any();
   made.text = kNoSupply;
   const std::optional<BusUse> use = bus_use(run.record, 0);
-  if (!supply.any() || !use) return;
+  if (!supply.any()) return;
+  made.text = kNoNumbers;
+  if (!use) return;
   made.text = "the supply states no least voltage (supply.least)";
   if (!(supply.least > 0) && use->held) return;
   made.value = use->held ? supply.voltage - use->voltage_least : supply.voltage;
@@ -74,7 +77,9 @@ void judge_current(const CheckedRun& run, Check& made) {
   made.text = kNoSupply;
   const std::optional<BusUse> use = bus_use(run.record, run.summary.judged.first_row);
   const std::optional<BusUse> whole = bus_use(run.record, 0);
-  if (!supply.any() || !use || !whole) return;
+  if (!supply.any()) return;
+  made.text = kNoNumbers;
+  if (!use || !whole) return;
   made.text = "the supply states no largest current (supply.current)";
   if (!(supply.current > 0)) return;
   made.value = use->current_rms;

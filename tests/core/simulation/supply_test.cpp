@@ -75,6 +75,7 @@ TEST(Bus, MotorsThatBrakeFeedTheirNeighboursFirst) {
   const BusState fed = solve(supply, {brakes});
   EXPECT_NEAR(fed.voltage, (6 + 0.5 * 0.5 * 10 / 2) / (1 + 0.5 * 0.25 / 2), kRounding);
   EXPECT_LT(fed.current, 0);
+  EXPECT_TRUE(fed.held);
 }
 
 TEST(Bus, IsTheLargestSolution) {

@@ -99,6 +99,14 @@ TEST(MotorSource, TheNoteStandsWhereTheTypeDoes) {
                 line, kDefaults)}));
 }
 
+TEST(MotorSource, DefaultsThatFollowFromOtherFiguresAreNamedWithoutANumber) {
+  const std::vector<std::string> all =
+      notes(with_type("type: dc_motor, R: 2, gear: 50", "type: servo, voltage: 6, stall_torque: 1, no_load_speed: 6"));
+  ASSERT_FALSE(all.empty());
+  EXPECT_TRUE(contains(all[0], "its own defaults load_friction, dry_friction, viscous_friction, rotor_inertia; give"))
+      << all[0];
+}
+
 /// If the scenario states all motor data, there is no note.
 TEST(MotorSource, OfFiguresThatTheScenarioGivesThereIsNoNote) {
   EXPECT_EQ(notes(with_type(kServo, "type: dc_motor, R: 2, Kt: 0.01, Ks: 0.01, gear: 50, efficiency: 0.8, u_max: 12")),

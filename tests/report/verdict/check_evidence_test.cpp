@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "report/verdict/error_bar.h"
+#include "report/verdict/measure.h"
 #include "report/verdict/trust.h"
 #include "tests/report/verdict/checks/check_changes.h"
 
@@ -40,6 +41,21 @@ TEST(CheckEvidence, PeriodicIsWhatRepeats) {
   EXPECT_NEAR(with(false, 4).margin, -0.5, kEvidenceRounding);
   EXPECT_EQ(with(false, 0).status, CheckStatus::not_judged) << "the set points do not repeat";
   EXPECT_EQ(with(false, 5).status, CheckStatus::not_judged) << "too short";
+}
+
+/// As a quantity, missing evidence and a failure without a margin are below every limit; a check that does not apply has none.
+TEST(CheckEvidence, MarginsOfChecksWithoutOne) {
+  const auto margin = [](const char* id, CheckStatus status) {
+    Check check;
+    check.id = id;
+    check.status = status;
+    check.margin = NAN;
+    return margin_quantity(std::string("margin.") + id, check);
+  };
+  EXPECT_EQ(margin("evidence", CheckStatus::not_judged), -1);
+  EXPECT_TRUE(std::isnan(margin("evidence", CheckStatus::pass)));
+  EXPECT_EQ(margin("speed", CheckStatus::fail), -1);
+  EXPECT_TRUE(std::isnan(margin("speed", CheckStatus::not_judged)));
 }
 
 /// Sufficient evidence is three periods, of which a thousandth may be missing, or one settled period, or 2 s
