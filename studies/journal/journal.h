@@ -162,7 +162,7 @@ struct RunColumns {
 /// A run without its quantities.
 struct Brief {
   std::uint64_t run = 0;
-  std::string outcome, message;
+  std::string outcome = {}, message = {};
   double simulated = 0;
   std::optional<Score> score = {};
   Word verdict = Word::failed;
