@@ -63,10 +63,10 @@ TEST(Scbo, IsBetterThanCmaWhereRunsAreFew) {
   EXPECT_LT(found, median_of(Method::cma, in_a_valley, 4, 128));
 }
 
-/// The measured medians are -0.708 and -0.487. Results of single seeds overlap, so that the test applies only to the three
-/// seeds of median_of.
+/// The measured medians are -0.896 and -0.716, and -0.688 without preselection. Results of single seeds overlap, so that the
+/// test applies only to the three seeds of median_of.
 TEST(CmaGp, IsBetterThanCmaWhereRunsAreFew) {
-  EXPECT_LT(median_of(Method::cma_gp, in_a_valley, 4, 160), median_of(Method::cma, in_a_valley, 4, 160));
+  EXPECT_LT(median_of(Method::cma_gp, in_a_valley, 4, 240), median_of(Method::cma, in_a_valley, 4, 240));
 }
 
 /// If all points fail, there is no model and no preselection. CMA-ES alone must then find the best point of an ellipsoid with
