@@ -11,6 +11,7 @@
 #include "core/laws/dc_motor.h"
 #include "core/plugin/actuator.h"
 #include "core/scenario/built_robot.h"
+#include "core/scenario/sensor_section.h"
 #include "core/settings/wording.h"
 #include "core/simulation/start.h"
 

@@ -131,7 +131,8 @@ void decide(const CheckedRun& run, Verdict& made) {
 }  // namespace
 
 std::size_t Verdict::count(CheckStatus status) const {
-  return static_cast<std::size_t>(std::ranges::count(checks, status, &Check::status));
+  const auto counts = [&](const Check& check) { return check.concerns && check.status == status; };
+  return static_cast<std::size_t>(std::ranges::count_if(checks, counts));
 }
 
 std::vector<const Check*> Verdict::failures() const {

@@ -131,7 +131,8 @@ TEST_P(Contract, ExplainsItself) {
   const Numbers numbers = numbers_of(entry(), entry().settings(entry()).get());
   EXPECT_EQ(numbers.empty_abouts, std::vector<std::string>{}) << "fields need a sentence";
   for (const auto& [path, number] : numbers.found) {
-    const auto lists = [&](const std::vector<std::string>& paths) { return std::ranges::find(paths, path) != paths.end(); };
+    const std::string& name = path;  // clang 14 captures no binding
+    const auto lists = [&](const std::vector<std::string>& paths) { return std::ranges::find(paths, name) != paths.end(); };
     if (lists(numbers.required) || lists(numbers.not_stated)) continue;
     EXPECT_TRUE(number.value >= number.spec.min && number.value <= number.spec.max) << path << ": default out of range";
   }

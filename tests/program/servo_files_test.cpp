@@ -1,5 +1,6 @@
 // Tests of servos by name: every shipped file is a motor with its firmware, own keys and own files count first, and errors name
 // the nearest servo.
+#include "core/laws/dc_motor.h"
 #include "core/plugin/plugin_instance.h"
 #include "core/robot_files/servo_file.h"
 #include "core/scenario/built_robot.h"
