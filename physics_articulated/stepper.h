@@ -4,6 +4,7 @@
 
 #include "core/math/runge_kutta.h"
 #include "physics_articulated/agreement.h"
+#include "physics_articulated/lost_speeds.h"
 
 namespace gaitlab::articulated {
 
@@ -34,7 +35,7 @@ class Stepper {
         joints_(tree.lo.size()),
         agreement_(accuracy),
         history_(layout.size(), T(0.0)),
-        lost_(joints_, T(0.0)),
+        lost_(joints_),
         solos_(solos),
         of_solo_(StateLayout::kAngles + 2 * joints_),
         command_of_solo_(joints_),
@@ -193,28 +194,9 @@ class Stepper {
     }
   }
 
-  /// Difference of speeds at the end of a way, and for a joint speed also its entry of lost_.
-  [[nodiscard]] T with_lost(std::size_t e, const T& apart) const {
-    const std::size_t first = StateLayout::kAngles + joints_;
-    return implicit.motors.any_jump && e >= first ? math::abs(apart) + lost_[e - first] : apart;
-  }
-  /// Finds the speeds that joints lose that come to rest in a step of h, from `start` to `end`, although their friction cannot
-  /// hold them there: they turn back within the step, on average after half of it. Whole step and halves agree that such a
-  /// joint ends at rest, so that their difference does not show this error.
   void find_lost(const std::vector<T>& start, const std::vector<T>& end, In command, double h, const math::Mask<T>& which) {
-    if (!implicit.motors.any_jump) return;
-    math::Mask<T> any{};
-    for (std::size_t j = 0; j < joints_; ++j) {
-      const std::size_t e = StateLayout::kAngles + joints_ + j;
-      const auto rests = math::mask_and(math::abs(start[e]) > T(0.0), math::abs(end[e]) <= T(0.0));
-      const auto here = math::mask_and(which, math::mask_and(implicit.motors.jumps[j], rests));
-      lost_[j] = math::select(here, T(h / 2), T(0.0));
-      any = math::mask_or(any, here);
-    }
-    if (!math::any_lane(any)) return;
-    implicit.evaluate(std::span<const T>(end), command);
-    history_[layout.solves()] = history_[layout.solves()] + math::select(any, T(1.0), T(0.0));
-    for (std::size_t j = 0; j < joints_; ++j) lost_[j] = lost_[j] * math::abs(implicit.accelerations()[6 + j]);
+    const math::Mask<T> asked = lost_.find(implicit, start, end, command, h, which);
+    history_[layout.solves()] = history_[layout.solves()] + math::select(asked, T(1.0), T(0.0));
   }
 
   /// Lanes whose state is finite. Shorter steps cannot repair the other lanes.
@@ -301,7 +283,7 @@ class Stepper {
     };
     find_lost(own.half.x, two, command, h / 2, which);
     auto second =
-        agree(Agreement<T>::kSecondOrder, which, limits, [&](std::size_t e) { return with_lost(e, two[e] - one[e]); });
+        agree(Agreement<T>::kSecondOrder, which, limits, [&](std::size_t e) { return lost_.added(e, two[e] - one[e]); });
     if (fixed) second = which;
     weigh(own.whole, second, -1, false);
     weigh(own.halves, second, 2, true);
@@ -311,7 +293,7 @@ class Stepper {
       this->four(own, command, h, more);
       find_lost(own.early.x, four, command, h / 4, more);
       third = agree(Agreement<T>::kThirdOrder, more, limits_,
-                    [&](std::size_t e) { return with_lost(e, 2.0 * (four[e] - two[e]) - (two[e] - one[e])); });
+                    [&](std::size_t e) { return lost_.added(e, 2.0 * (four[e] - two[e]) - (two[e] - one[e])); });
       if (level + 1 == kLevels) {
         T& coarse = history_[layout.coarse()];
         coarse = coarse + select(math::fresh(more, third), T(h), T(0.0));
@@ -403,7 +385,7 @@ class Stepper {
   std::size_t joints_;
   Agreement<T> agreement_;
   std::vector<T> history_, sum_, stage_, rate_;
-  std::vector<T> lost_;  ///< rad/s, by joint: see find_lost()
+  LostSpeeds<T> lost_;
   std::vector<Level<T>> levels_;
   StepLimits<T> limits_;
   std::span<const SoloOfLane> solos_;

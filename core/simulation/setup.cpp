@@ -82,15 +82,6 @@ Simulation::Simulation(std::span<const Scenario> lanes, Records records, Role ro
 
 Simulation::~Simulation() = default;
 
-void Simulation::make_supplies() {
-  if (actuator_ == nullptr) return;
-  for (const auto& lane : lanes_) {
-    if (lane->controller == nullptr) continue;
-    lane->supply = LaneSupply(lane->scenario, lane->changes, actuator_->dc_motors(), lane->index, lanes_.size());
-    bounded_ = bounded_ || lane->supply.any();
-  }
-}
-
 PlantSettings Simulation::plant_settings() const {
   const auto own = [](const Lane& lane) {
     const Scenario& s = lane.scenario;
