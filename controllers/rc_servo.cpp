@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
 #include <utility>
 
 namespace gaitlab::controllers {
@@ -23,6 +24,7 @@ constexpr std::array<Firmware, 3> kFirmware{{
 }};
 constexpr std::array kUnits{kFirmware[0].name, kFirmware[1].name, kFirmware[2].name};
 constexpr double kUsualGain = 5;    // duty/rad; chosen: MX and STS3215 have 5.1 and 5.3 by default
+constexpr int kMostOnWay = 100000;  // goals on the way to a joint, 0.8 MB; chosen: 10 s of periods of 0.1 ms
 constexpr double kRounding = 1e-9;  // of a latency of whole control periods
 
 double clamp(double value, double most) { return std::clamp(value, -most, most); }
@@ -96,6 +98,10 @@ void RcServo::Settings::fields(Fields& f) {
 RcServo::RcServo(const RobotInfo& robot, Settings settings) : joints_(robot.joints.size()), s_(std::move(settings)) {
   for (std::size_t j = 0; j < joints_; ++j) {
     const double periods = s_.latency[j] > 0 ? s_.latency[j] / robot.control_period : 0;
+    if (!(periods <= kMostOnWay)) {
+      throw SettingError("latency", "latency of joint " + robot.joints[j].name + " is more than " + std::to_string(kMostOnWay) +
+                                        " control periods; expected a shorter latency, or a longer controller.period");
+    }
     delay_.push_back(static_cast<std::size_t>(std::ceil(periods * (1 - kRounding))));
     on_way_ = std::max(on_way_, delay_.back());
   }

@@ -51,6 +51,15 @@ inline Scenario scenario(const std::string& text, const std::vector<std::string>
 
 inline bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
+inline void expect_refusal(const std::string& text, const std::string& expected) {
+  try {
+    scenario(text);
+    ADD_FAILURE() << text << " is accepted";
+  } catch (const InputError& error) {
+    EXPECT_TRUE(contains(error.what(), expected)) << error.what();
+  }
+}
+
 inline Recording run(const Scenario& scenario) {
   Simulation simulation({&scenario, 1});
   simulation.run();

@@ -7,15 +7,6 @@
 namespace gaitlab::test {
 namespace {
 
-void expect_refusal(const std::string& text, const std::string& expected) {
-  try {
-    scenario(text);
-    ADD_FAILURE() << text << " is accepted";
-  } catch (const InputError& error) {
-    EXPECT_TRUE(contains(error.what(), expected)) << error.what();
-  }
-}
-
 /// Closed solution of a rotor of inertia J with the bare line of a servo, which is exact between two ticks.
 struct ServoRotor {
   double J, T0, w0, angle = 0, speed = 0;
@@ -96,6 +87,8 @@ TEST(RcServo, RefusesAGainThatIsStatedTwice) {
   };
   expect_refusal(text(", gain: 1, P: 400"), "gain and P are both stated");
   expect_refusal(text(", gain: 1, latency: -1"), "latency");
+  expect_refusal(text(", gain: 1, latency: 10, period: 1e-6"),
+                 "latency of joint m0/swing is more than 100000 control periods; expected a shorter latency, or a longer");
   expect_refusal(rod() + "actuator: {type: torque}\ncontroller: {type: rc_servo, gain: 1}\nduration: 1\n",
                  "controller 'rc_servo' commands duty, but actuator 'torque' takes N m");
 }

@@ -5,6 +5,7 @@
 #include "core/robot_files/servo_file.h"
 #include "core/scenario/built_robot.h"
 #include "core/scenario/resolved.h"
+#include "core/scenario/sensor_section.h"
 #include "core/settings/shipped_files.h"
 #include "tests/program/fixture.h"
 #include "tests/program/rod.h"
@@ -15,15 +16,6 @@ namespace {
 std::string with(const std::string& actuator, const std::string& controller = {}) {
   return rod() + "actuator: {" + actuator + "}\n" + (controller.empty() ? "" : "controller: {" + controller + "}\n") +
          "duration: 1\n";
-}
-
-void expect_no_servo(const std::string& text, const std::string& expected) {
-  try {
-    scenario(text);
-    ADD_FAILURE() << text << " is accepted";
-  } catch (const InputError& error) {
-    EXPECT_TRUE(contains(error.what(), expected)) << error.what();
-  }
 }
 
 TEST(ServoFiles, EveryShippedServoIsAMotorWithItsFirmware) {
@@ -51,7 +43,7 @@ TEST(ServoFiles, AKeyOfTheScenarioCountsFirst) {
   EXPECT_TRUE(contains(s.actuator_source, "u_max: measured; the rest: Futaba S3003")) << s.actuator_source;
   const Scenario chosen = scenario(with("type: servo, model: mx-64, stall_torque: 70"));
   EXPECT_TRUE(contains(chosen.actuator_source, "chosen: stall_torque; the rest: Rhoban/bam")) << chosen.actuator_source;
-  const auto controller = make_controller(s.controller, info(*s.robot));
+  const auto controller = make_controller(s.controller, plugin_info(s));
   EXPECT_NEAR(controller->gains().at(0).P, 64 * 0.158, 1e-12);
 }
 
@@ -77,7 +69,7 @@ TEST(ServoFiles, ARolloutWithAnotherServoIsThatOfThisServoAlone) {
 TEST(ServoFiles, AStatedGainTakesThePlaceOfP) {
   const Scenario s =
       scenario(with("type: servo, model: xl330-m288, efficiency: 0.5", "type: rc_servo, model: xl330-m288, gain: 3"));
-  EXPECT_EQ(make_controller(s.controller, info(*s.robot))->gains().at(0).P, 3);
+  EXPECT_EQ(make_controller(s.controller, plugin_info(s))->gains().at(0).P, 3);
 }
 
 TEST(ServoFiles, AHingeMayHaveItsOwnServo) {
@@ -115,13 +107,13 @@ TEST(ServoFiles, AreFoundBesideTheScenario) {
 }
 
 TEST(ServoFiles, ErrorsNameTheNearestServo) {
-  expect_no_servo(with("type: servo, model: xl330-m28"), "no servo 'xl330-m28'; did you mean 'xl330-m288'?");
-  expect_no_servo(with("type: dc_motor, model: s3003"), "servo 's3003' is for actuator 'servo', not 'dc_motor'");
-  expect_no_servo(with("type: servo, model: s3003", "type: rc_servo, model: s3003"), "servo 's3003' has no controller");
-  expect_no_servo(with("type: servo, model: [s3003]"), "model is a list; expected the name of a servo (gaitlab list servo)");
-  expect_no_servo(with("type: servo, model: ./none.yaml"), "none.yaml");
-  expect_no_servo(with("type: servo, model: s3003", "type: rc_servo") + "at: [{t: 0.5, set: {controller.model: mx-64}}]\n",
-                  "a servo cannot change within a run; expected the keys that change");
+  expect_refusal(with("type: servo, model: xl330-m28"), "no servo 'xl330-m28'; did you mean 'xl330-m288'?");
+  expect_refusal(with("type: dc_motor, model: s3003"), "servo 's3003' is for actuator 'servo', not 'dc_motor'");
+  expect_refusal(with("type: servo, model: s3003", "type: rc_servo, model: s3003"), "servo 's3003' has no controller");
+  expect_refusal(with("type: servo, model: [s3003]"), "model is a list; expected the name of a servo (gaitlab list servo)");
+  expect_refusal(with("type: servo, model: ./none.yaml"), "none.yaml");
+  expect_refusal(with("type: servo, model: s3003", "type: rc_servo") + "at: [{t: 0.5, set: {controller.model: mx-64}}]\n",
+                 "a servo cannot change within a run; expected the keys that change");
 }
 
 }  // namespace
