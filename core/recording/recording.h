@@ -141,9 +141,8 @@ std::vector<Column> supply_columns();
 void halve_ticks(Trace& ticks);
 /// Merges each pair of rows after the first row into the later one by keep_worst().
 void halve_rows(Trace& table);
-/// Copies the larger dock loads, the smaller stability margin, and the lower voltage and larger current of the bus of the
-/// previous row into `now`. Tension is signed, and the
-/// margin is NaN while nothing touches the ground.
+/// Copies the worse numbers of the previous row into `now`: larger dock loads, the smaller stability margin, the lower voltage
+/// and larger current of the bus. Tension is signed, and the stability margin is NaN while nothing touches the ground.
 void keep_worst(const ColumnList& columns, In before, Out now);
 
 }  // namespace gaitlab

@@ -56,8 +56,8 @@ class Bus {
   const std::vector<BusMotor>& motors_;
 };
 
-/// Root between `low`, where the balance is not positive, and `high`, where it is positive: Newton's steps, and halves where
-/// these leave the bounds.
+/// Root between `low` with a balance of at most 0 and `high` with a positive one: by Newton's steps, or by halves if such a
+/// step leaves the bounds.
 double root(const Bus& bus, double low, double high, double same) {
   double at = high;
   for (int i = 0; i < kMostSteps && high - low > same; ++i) {

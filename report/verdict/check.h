@@ -73,7 +73,8 @@ struct Check {
   CheckGroup group = CheckGroup::run;  ///< the group `trust` contains the checks of the run's accuracy
   std::string title;                   ///< for example `Voltage suffices`
   CheckStatus status = CheckStatus::not_judged;
-  bool concerns = true;  ///< false if the scenario lacks what is judged, such as a supply; the check is then not shown
+  bool concerns =
+      true;  ///< false for a scenario without the part that is judged, such as a supply; the check is then not shown
   CheckSpan span = CheckSpan::window;
   bool can_fail = true;                 ///< false: beyond the limit the check warns and does not fail
   bool least = false;                   ///< the limit is a lower limit

@@ -24,28 +24,28 @@ struct Meaning {
 };
 
 std::vector<Meaning> meanings() {
-  return {{Word::feasible,
-           "No check fails, and none is too close to its limit. At least one limit of the motors was judged, and for a "
-           "floating base on a ground also fall and in_ground. The run is evidence: long enough, borne by the ground, and "
-           "accurate. With contact.law bullet, whose solver keeps bodies apart, fall and in_ground may be missing, and unknown "
-           "evidence (torque error, the ground's share of the weight) is named beside the verdict."},
-          {Word::infeasible,
-           fmt::format(
-               "A check fails, in a run that is accurate and shows the gait. In a run that is too short, or whose gait "
-               "is not at full size, only a check of the whole run counts (fall, upright, stops, collision, in_ground, "
-               "brownout, gear_peak, docks, a rated speed), because more time cannot undo it. With a torque error above "
-               "limits.torque_error (at most {}) and up to {}, only voltage, current, stall, heat, gears and docks "
-               "count, and only if one fails even with its value reduced by the torque error of its joint. If friction or "
-               "inertia of "
-               "servos is chosen, `run` simulates once more without it; where that run is feasible, the sentence ends `with "
-               "the friction chosen; feasible without`.",
-               texts::percent(Limits::kMostTorqueError), texts::percent(kMostError))},
-          {Word::not_judged,
-           "Anything else. The sentence names all missing evidence, its settings where they are known, and the failing check "
-           "so far; if a number is impossible, it names only this number. If all settings are known, a line `judge by` has the "
-           "command with them. If only the accuracy is missing, or a value is too close to its limit, `run` simulates once "
-           "more, more accurately, if that takes less than 10 s by its estimate (not with --no-retry)."},
-          {Word::failed, "The run ended early."}};
+  return {
+      {Word::feasible,
+       "No check fails, and none is too close to its limit. At least one limit of the motors was judged, and for a "
+       "floating base on a ground also fall and in_ground. The run is evidence: long enough, borne by the ground, and "
+       "accurate. With contact.law bullet, whose solver keeps bodies apart, fall and in_ground may be missing, and unknown "
+       "evidence (torque error, the ground's share of the weight) is named beside the verdict."},
+      {Word::infeasible,
+       fmt::format("A check fails, in a run that is accurate and shows the gait. In a run that is too short, or whose gait "
+                   "is not at full size, only a check of the whole run counts (fall, upright, stops, collision, in_ground, "
+                   "brownout, gear_peak, docks, a rated speed), because more time cannot undo it. With a torque error above "
+                   "limits.torque_error (at most {}) and up to {}, only voltage, current, stall, heat, gears and docks "
+                   "count, and only if one fails even with its value reduced by the torque error of its joint. If friction or "
+                   "inertia of "
+                   "servos is chosen, `run` simulates once more without it; if that run is feasible, the sentence ends `with "
+                   "the friction chosen; feasible without`.",
+                   texts::percent(Limits::kMostTorqueError), texts::percent(kMostError))},
+      {Word::not_judged,
+       "Anything else. The sentence names all missing evidence, its settings where they are known, and the failing check "
+       "so far; if a number is impossible, it names only this number. If all settings are known, a line `judge by` has the "
+       "command with them. If only the accuracy is missing, or a value is too close to its limit, `run` simulates once "
+       "more, more accurately, if that takes less than 10 s by its estimate (not with --no-retry)."},
+      {Word::failed, "The run ended early."}};
 }
 
 std::string about_evidence() {
