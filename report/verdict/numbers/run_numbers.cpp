@@ -239,9 +239,8 @@ std::vector<SummaryNumber> run_numbers() {
        .value = [](R r) { return of_motors(r, [&](const Judged&) { return or_null(r.record.current_rms); }); }},
       {.key = "supply.voltage_least",
        .unit = "V",
-       .definition =
-           "Least voltage of the bus in the window, at control ticks; this number and the next two are null without "
-           "a supply.",
+       .definition = "Least voltage of the bus in the window, at control ticks; this number and the next two are null without "
+                     "a supply.",
        .value = [](R r) { return of_bus(r, [](const BusUse& bus) { return bus.voltage_least; }); }},
       {.key = "supply.current_rms",
        .unit = "A",

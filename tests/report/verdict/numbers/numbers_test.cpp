@@ -16,7 +16,8 @@ using namespace report;
 using Json = nlohmann::ordered_json;
 
 struct Walk {
-  Scenario scenario = shipped("caterpillar.yaml", {"physics.engine=articulated", "duration=0.5", "supply.voltage=7.4", "supply.capacity=1"});
+  Scenario scenario =
+      shipped("caterpillar.yaml", {"physics.engine=articulated", "duration=0.5", "supply.voltage=7.4", "supply.capacity=1"});
   Recording record = [this] {
     Recording made = run(scenario);
     for (const char* column : {"torque_peak", "torque_rms", "distance", "margin"})
