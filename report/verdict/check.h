@@ -10,6 +10,8 @@
 
 namespace gaitlab {
 
+struct Scenario;
+
 namespace report {
 
 enum class CheckStatus { pass, warn, fail, too_close, not_judged };
@@ -73,8 +75,7 @@ struct Check {
   CheckGroup group = CheckGroup::run;  ///< the group `trust` contains the checks of the run's accuracy
   std::string title;                   ///< for example `Voltage suffices`
   CheckStatus status = CheckStatus::not_judged;
-  bool concerns =
-      true;  ///< false for a scenario without the part that is judged, such as a supply; the check is then not shown
+  bool concerns = true;  ///< CheckKind::concerns of the scenario; if false, the check is not shown
   CheckSpan span = CheckSpan::window;
   bool can_fail = true;                 ///< false: beyond the limit the check warns and does not fail
   bool least = false;                   ///< the limit is a lower limit
@@ -123,6 +124,8 @@ struct CheckKind {
   bool of_all_loads = false;  ///< true: without a stated limit the check needs Loads::recorded to compute its number
   bool rating = false;        ///< true: the limit is a rated load, which does not act on the motion
   Lost lost = Lost::never;
+  /// True if the scenario has the part that is judged, such as a supply; null if every scenario has it.
+  bool (*concerns)(const Scenario& scenario) = nullptr;
   [[nodiscard]] bool can_fail() const { return !fails.empty(); }
 };
 /// All kinds of checks, in the order of the verdict.

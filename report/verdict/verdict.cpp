@@ -213,6 +213,7 @@ Check judged_check(const CheckKind& kind, const CheckedRun& run) {
   Check check{.id = kind.id,
               .group = kind.group,
               .title = kind.title,
+              .concerns = kind.concerns == nullptr || kind.concerns(run.scenario),
               .span = kind.span,
               .can_fail = kind.can_fail(),
               .least = kind.least,

@@ -41,7 +41,6 @@ std::string largest_drawer(const CheckedRun& run, std::size_t row) {
 
 void judge_voltage(const CheckedRun& run, Check& made) {
   const Supply& supply = run.scenario.supply;
-  made.concerns = supply.any();
   made.text = kNoSupply;
   const std::optional<BusUse> use = bus_use(run.record, 0);
   if (!supply.any()) return;
@@ -73,7 +72,6 @@ void judge_voltage(const CheckedRun& run, Check& made) {
 
 void judge_current(const CheckedRun& run, Check& made) {
   const Supply& supply = run.scenario.supply;
-  made.concerns = supply.any();
   made.text = kNoSupply;
   const std::optional<BusUse> use = bus_use(run.record, run.summary.judged.first_row);
   const std::optional<BusUse> whole = bus_use(run.record, 0);
@@ -94,14 +92,15 @@ void judge_current(const CheckedRun& run, Check& made) {
 }  // namespace
 
 std::vector<CheckKind> checks::battery() {
+  const auto concerns = [](const Scenario& scenario) { return scenario.supply.any(); };
   return {{"brownout", CheckGroup::run, "V", "Supply holds its voltage",
            "largest drop of the bus below supply.voltage, at control ticks, compared with the drop to supply.least",
            "to less than supply.least, or if no voltage satisfies the law of the bus", "", CheckSpan::whole_run, "supply.least",
-           kSpread, judge_voltage, false, false, false, Lost::extreme},
+           kSpread, judge_voltage, false, false, false, Lost::extreme, concerns},
           {"battery", CheckGroup::run, "A", "Supply gives the current",
            "current of the supply at control ticks of the window, RMS, compared with its largest continuous current",
            "above supply.current", "above limits.warn_share of it, or with a peak of the whole run above it", CheckSpan::window,
-           "supply.current", "a gentler gait, or a larger battery", judge_current, false, false, true}};
+           "supply.current", "a gentler gait, or a larger battery", judge_current, false, false, true, Lost::never, concerns}};
 }
 
 }  // namespace gaitlab::report

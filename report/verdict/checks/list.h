@@ -7,16 +7,16 @@
 namespace gaitlab::report::checks {
 
 // Rows of the list, by file: of the check with the name of the file, or of a family of checks.
-std::vector<CheckKind> outcome(), fall(), progress(), upright();
-std::vector<CheckKind> saturation(), envelope(), speed(), stall(), heat(), gears(), battery();
+std::vector<CheckKind> outcome(), fall(), progress(), upright(), battery();
+std::vector<CheckKind> saturation(), envelope(), speed(), stall(), heat(), gears();
 std::vector<CheckKind> tracking(), stops(), setpoints(), collision(), docks();
 std::vector<CheckKind> in_ground(), slip(), airborne(), stability(), field();
 std::vector<CheckKind> periodic(), evidence(), torque_error(), predictable(), creep(), energy(), steps();
 
-/// The order of the verdict.
+/// The order of the verdict: by group.
 inline constexpr std::vector<CheckKind> (*kList[])() = {
-    outcome, fall,     progress, upright,      saturation,  envelope, speed,     stall, heat,     gears,
-    battery, tracking, stops,    setpoints,    collision,   docks,    in_ground, slip,  airborne, stability,
-    field,   periodic, evidence, torque_error, predictable, creep,    energy,    steps};
+    outcome, fall,     progress, upright,      battery,     saturation, envelope,  speed, stall,    heat,
+    gears,   tracking, stops,    setpoints,    collision,   docks,      in_ground, slip,  airborne, stability,
+    field,   periodic, evidence, torque_error, predictable, creep,      energy,    steps};
 
 }  // namespace gaitlab::report::checks
