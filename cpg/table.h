@@ -1,6 +1,8 @@
 // Gait `table`, set points from a CSV text, joined like keyframes.
 #pragma once
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include "cpg/keyframes.h"
 
@@ -8,8 +10,15 @@ namespace gaitlab::cpg {
 
 class Table final : public Cpg {
  public:
+  /// A column of the CSV, and its joint.
+  struct Column {
+    std::int64_t joint = -1;
+    std::string column;
+    void fields(Fields& f);
+  };
   struct Model {
-    std::string file = "time\n0\n1\n";
+    std::string file = "time\n0\n1\n", time;
+    std::vector<Column> columns;
     Keyframes::Interpolation interpolation = Keyframes::Interpolation::spline;
     bool repeat = true;
     double ramp = 0;
@@ -21,9 +30,9 @@ class Table final : public Cpg {
   };
   static const char* const kManual;
 
-  /// Throws std::invalid_argument with line and column of the text for a missing time column, a column that is repeated or
-  /// names no joint, a row with a wrong number of cells, or a cell that is not a finite number. Also throws the errors of the
-  /// constructor of Keyframes.
+  /// Throws std::invalid_argument with line and column of the text for a missing time column, a column that names no joint, a
+  /// joint with two columns, times that do not rise, and the errors of CsvTable. Also throws the errors of the constructor of
+  /// Keyframes.
   Table(const RobotInfo& robot, const Settings& settings);
   void output(double t, In state, Out setpoint) const override { frames_.output(t, state, setpoint); }
   [[nodiscard]] SetPointTimes times() const override { return frames_.times(); }

@@ -21,6 +21,7 @@ const std::vector<std::string>& report_columns() {
                                                   "joint.*.measured",
                                                   "joint.*.torque",
                                                   "joint.*.saturation",
+                                                  "joint.*.logged_*",
                                                   "base.?",
                                                   "base.q?",
                                                   "com.?",

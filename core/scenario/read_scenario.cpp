@@ -71,6 +71,7 @@ class ScenarioReader {
     read_body();
     read_sections();
     raise();
+    insert_torque_off(root_, scenario_);
     read_changes();
     choose_step();
     Scenario::Places places;
@@ -209,6 +210,8 @@ class ScenarioReader {
     if (reads("actuator") && sections.actuator.sound) attempt([&] { tell_replaced_motors(motors); });
     if (const Node* ground = root_.find("ground"); ground != nullptr && reads("ground"))
       finish_ground(*ground, folder_, scenario_, problems_);
+    if (const Node* log = root_.find(kMeasuredSection); log != nullptr && reads(kMeasuredSection))
+      finish_measured(*log, scenario_, problems_);
     if (!gains.agreed() && !given(root_, "controller") && !sections.actuator.none)
       gains.refuse(given(root_, "robot").value_or(root_.place), problems_);
     check_sections(sections, joints);
@@ -397,7 +400,8 @@ Scenario ScenarioTemplate::with(const std::vector<std::string>& own) const {
   const auto whole = [&](const std::string& set) {
     const std::string key = set.substr(0, set.find('='));
     const std::string section = key.substr(0, key.find('.'));
-    constexpr std::array kWhole{"gaitlab", "name", "plugins", "robot", kGroupsSection, kTolerancesSection, kAsBuiltSection};
+    constexpr std::array kWhole{"gaitlab",          "name",          "plugins",       "robot", kGroupsSection,
+                                kTolerancesSection, kAsBuiltSection, kMeasuredSection};
     if (std::ranges::find(kWhole, std::string_view(section)) != kWhole.end() || key.ends_with(".type")) return true;
     if (section == "seed" && reader_->draws_robots()) return true;
     if (key == section && find_kind(section) != nullptr) return true;  // a whole section of a plugin

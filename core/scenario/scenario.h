@@ -14,6 +14,7 @@
 #include "core/names.h"
 #include "core/plugin/plugin_instance.h"
 #include "core/scenario/as_built.h"
+#include "core/scenario/measured_section.h"
 #include "core/settings/joint_patterns.h"
 #include "core/settings/node.h"
 
@@ -187,6 +188,7 @@ struct Scenario {
   ContactSettings contact;
   PluginSelection actuator, controller, cpg;
   Supply supply;
+  MeasuredSettings measured;       ///< log of the real robot
   std::vector<double> duty_volts;  ///< voltage of duty 1 by joint, if it is not that of the supply or the motors; not a setting
   std::string actuator_source;     ///< origin of the values in the section `actuator`; empty if not stated
   double control_period = 0.015;   ///< s

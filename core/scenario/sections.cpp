@@ -337,6 +337,9 @@ void SectionFields::fields(Fields& f) {
   if (!actuator.none) group(controller);
   if (has_cpg) group(cpg);
   f.number("duration", scenario.duration, {"s", kPositive, 1e6, "Simulated time; required."});
+  scenario.measured.brief = writing;
+  if (!writing || scenario.measured.any())
+    f.group(kMeasuredSection, scenario.measured, "Log of the real robot, with which the run is compared.");
   f.group("trace", scenario.trace, "The recorded trace.");
   if (!writing || scenario.limits != Limits()) f.group("limits", scenario.limits, "Limits of the verdict.");
   if (!writing || !scenario.accept.empty()) {

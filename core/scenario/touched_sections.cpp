@@ -41,6 +41,7 @@ void TouchedSections::restart(Scenario& scenario) const {
   if (has("limits")) scenario.limits = fresh.limits;
   if (has("accept")) scenario.accept = fresh.accept;
   if (has("supply")) scenario.supply = fresh.supply;
+  if (has(kMeasuredSection)) scenario.measured = fresh.measured;
   if (has("actuator")) {
     scenario.actuator = fresh.actuator;
     scenario.actuator_source = fresh.actuator_source;

@@ -65,6 +65,7 @@ void Probes::add_all(const Scenario& scenario, const std::vector<ContactElement>
   }
   add_energy(robot, friction);
   add_steps(robot);
+  add_logged(scenario);
   add_reactions(robot);
   add_sensors(sensor_readings(scenario));
 }
@@ -127,6 +128,18 @@ void Probes::add_joints(const Robot& robot, bool motors, std::string_view comman
     joint("stop_torque", "N m", "torque of the hinge stop, positive along the axis,", &Sample::stop_torque);
     if (driven) joint("saturation", "", "0 none, 1 voltage, 2 current:", &Sample::saturation);
     if (driven && faults) joint("fault", "", "0 none, 1 dead, 2 open, 3 stuck, 4 weak, 5 lost, 6 late: fault", &Sample::fault);
+  }
+}
+
+void Probes::add_logged(const Scenario& scenario) {
+  if (!scenario.measured.any()) return;
+  for (const MeasuredLog::OfJoint& of : scenario.measured.log->joints) {
+    for (const LoggedKind& kind : logged_kinds()) {
+      if (of.of(kind.kind).empty()) continue;
+      add(fmt::format("joint.{}.logged_{}", of.joint, kind.key), kind.unit,
+          fmt::format("{} in the log `measured`, of joint {}", kind.key, scenario.robot->joints[of.joint].name),
+          [log = scenario.measured.log, &values = of.of(kind.kind)](const Sample& s) { return log->at(values, s.t); });
+    }
   }
 }
 
@@ -300,7 +313,7 @@ void Probes::select(const Scenario& scenario) {
   for (std::size_t i = 0; i < columns_.size(); ++i) {
     if (!wanted[i]) {
       const auto covers = [&](const std::string& pattern) { return glob(pattern, columns_[i].name); };
-      if (std::ranges::none_of(report_columns(), covers)) continue;
+      if (std::ranges::none_of(report_columns(), covers) && !scenario.measured.reads(columns_[i].name)) continue;
       rest_columns_.push_back(std::move(columns_[i]));
       rest_sources_.push_back(std::move(sources_[i]));
       continue;

@@ -49,6 +49,7 @@ class Probes {
   void add_energy(const Robot& robot, bool friction);
   void add_steps(const Robot& robot);
   void add_wrench(const std::string& name, const std::string& of, const std::function<const Wrench&(const Sample&)>& read);
+  void add_logged(const Scenario& scenario);
   void add_reactions(const Robot& robot);
   void add_sensors(const std::vector<SensorReading>& readings);
   void select(const Scenario& scenario);

@@ -40,11 +40,13 @@ Simulation::Simulation(std::span<const Scenario> lanes, Records records, Role ro
       layout_{scenarios_[0].robot->joints.size(), scenarios_.size()},
       first_(layout_, recorded_),
       meter_(std::span(scenarios_).first(recorded_)) {
+  // A log of the real robot is compared with rows of the trace.
+  if (std::ranges::any_of(scenarios_, [](const Scenario& s) { return s.measured.any(); })) records_.rows = true;
   std::vector<const Scenario*> all;
   for (const Scenario& s : scenarios_) {
     if (!can_share(scenarios_[0], s)) throw std::invalid_argument("these scenarios cannot run side by side");
     all.push_back(&s);
-    lanes_.push_back(std::make_unique<Lane>(s, lanes_.size(), records.rows));
+    lanes_.push_back(std::make_unique<Lane>(s, lanes_.size(), records_.rows));
     steps_ = std::max(steps_, lanes_.back()->clock.steps());
   }
   const Scenario& first = scenarios_[0];

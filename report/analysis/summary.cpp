@@ -69,6 +69,7 @@ Summary summarise(const Scenario& scenario, const Recording& r, double wall_time
   s.judged = judge(r, s.limit_cycle, s.gait.period, s.gait.start);
   s.posture = posture(scenario, r, s.judged);
   s.fall = fall(scenario, r);
+  s.log = log_errors(scenario, r);
   return s;
 }
 

@@ -9,6 +9,7 @@
 #include "core/simulation/simulation.h"
 #include "report/analysis/fall.h"
 #include "report/analysis/gait.h"
+#include "report/analysis/measured.h"
 #include "report/analysis/posture.h"
 
 namespace gaitlab::report {
@@ -29,6 +30,7 @@ struct Summary {
   std::string stability_source;
   Judged judged;
   Posture posture;                          ///< over the judged window
+  std::optional<LogErrors> log;             ///< differences from the log of the real robot
   std::optional<std::optional<Fall>> fall;  ///< result of fall(); no value if it was not computed
   /// Index of the most loaded joint; 0 if no joint was judged.
   [[nodiscard]] std::size_t most_loaded() const { return judged.order.empty() ? 0 : judged.order.front(); }

@@ -30,6 +30,8 @@ constexpr SignalKind kQuantities[] = {{"t", "s", 1e-6},
                                       {"joint.*.setpoint", "rad", 1e-4},
                                       {"joint.*.angle", "rad", 1e-4},
                                       {"joint.*.measured", "rad", 1e-4},
+                                      {"joint.*.logged_angle", "rad", 1e-4},
+                                      {"joint.*.logged_torque", "N m", 1e-3, true},
                                       {"joint.*.speed", "rad/s", 1e-3, true},
                                       {"joint.*.torque", "N m", 1e-3, true},
                                       {"joint.*.stop_torque", "N m", 1e-3, true, true},
@@ -121,7 +123,11 @@ std::vector<Signal> signals(const Recording& r, const Trace& loads, const std::v
   std::vector<Signal> all;
   for (const SignalKind& quantity : kQuantities)
     add_columns(std::array{&r.trace, &r.rest, &loads}, quantity, command_unit, all);
-  add_known("stability", r.rows(), all);
+  std::vector<std::string> with_gaps{"stability"};  // a log may be shorter than the run
+  for (const Signal& signal : all) {
+    if (glob("joint.*.logged_*", signal.name)) with_gaps.push_back(signal.name);
+  }
+  for (const std::string& name : with_gaps) add_known(name, r.rows(), all);
   add_feet(feet, r.rows(), all);
   return all;
 }

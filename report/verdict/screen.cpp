@@ -125,12 +125,16 @@ std::vector<ScreenLine> first_screen(const RunData& run, const Verdict& verdict,
   add_kind(screen, verdict.failures(), led ? 1 : 0, most, "fails", Tone::bad);
   add_kind(screen, of_status(verdict, CheckStatus::too_close), 0, most, "too close", Tone::doubtful);
   std::vector<const Check*> warnings = of_status(verdict, CheckStatus::warn);
-  std::erase_if(warnings, [](const Check* check) { return check->id == "created"; });  // printed beside the cost of transport
+  // `created` is printed beside the cost of transport, and `measured` in a line of its own.
+  std::erase_if(warnings, [](const Check* check) { return check->id == "created" || check->id == "measured"; });
   add_kind(screen, warnings, 0, most, "warns", Tone::doubtful);
   std::vector<const Check*> open = of_status(verdict, CheckStatus::not_judged);
   std::erase_if(open, [](const Check* check) { return !check->concerns; });
   if (!open.empty()) screen.add("unknown", names(open) + " (gaitlab explain verdict)");
   if (const std::string text = gait(run); !text.empty()) screen.add("gait", text);
+  const auto log = std::ranges::find(verdict.checks, "measured", &Check::id);
+  if (log != verdict.checks.end() && log->concerns)
+    screen.add("measured", log->text, log->status == CheckStatus::pass ? Tone::plain : Tone::doubtful);
   const char* title = "changes";
   for (const ToldChange& change : told_changes(run.scenario, run.record.simulated)) {
     screen.add(title, fmt::format("{:.4g} s: {}", change.t, change.text));

@@ -122,9 +122,11 @@ PanelRecipe chart(const Scenario& scenario, const Recording& r, const Summary& s
     if (!r.joint(drawn.joint, quantity).empty()) axis.columns.push_back(fmt::format("joint.{}.{}", drawn.joint, quantity));
   };
   add(panel.left, "angle");
+  add(panel.left, "logged_angle");
   if (scenario.actuator.entry == nullptr || !joint.driven()) return panel;
   add(panel.left, "setpoint");
   add(panel.right, "torque");
+  add(panel.right, "logged_torque");
   panel.motor = joint.name;
   if (drawn.joint < summary.judged.joints.size()) {
     const JudgedJoint& judged = summary.judged.joints[drawn.joint];

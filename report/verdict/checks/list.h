@@ -11,12 +11,12 @@ std::vector<CheckKind> outcome(), fall(), progress(), upright(), battery();
 std::vector<CheckKind> saturation(), envelope(), speed(), stall(), heat(), gears();
 std::vector<CheckKind> tracking(), stops(), setpoints(), collision(), docks();
 std::vector<CheckKind> in_ground(), slip(), airborne(), stability(), field();
-std::vector<CheckKind> periodic(), evidence(), torque_error(), predictable(), creep(), energy(), steps();
+std::vector<CheckKind> periodic(), evidence(), torque_error(), predictable(), creep(), energy(), steps(), measured();
 
 /// The order of the verdict: by group.
 inline constexpr std::vector<CheckKind> (*kList[])() = {
     outcome, fall,     progress, upright,      battery,     saturation, envelope,  speed, stall,    heat,
     gears,   tracking, stops,    setpoints,    collision,   docks,      in_ground, slip,  airborne, stability,
-    field,   periodic, evidence, torque_error, predictable, creep,      energy,    steps};
+    field,   periodic, evidence, torque_error, predictable, creep,      energy,    steps, measured};
 
 }  // namespace gaitlab::report::checks

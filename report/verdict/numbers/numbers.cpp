@@ -13,7 +13,8 @@ constexpr std::string_view kOfJoint = "per_joint.J.";
 
 std::vector<SummaryNumber> all_numbers() {
   std::vector<SummaryNumber> all = run_numbers();
-  for (const auto& part : {joint_numbers(), motion_numbers()}) all.insert(all.end(), part.begin(), part.end());
+  for (const auto& part : {joint_numbers(), motion_numbers(), measured_numbers()})
+    all.insert(all.end(), part.begin(), part.end());
   return all;
 }
 

@@ -30,6 +30,7 @@ struct SummaryNumber {
   /// is null.
   std::function<nlohmann::ordered_json(const RunData&)> value = {};
   std::function<double(const RunData&, std::size_t joint)> of_joint = {};  ///< replaces `value` for a number of each joint
+  bool if_known = false;                                                   ///< left out of summary.json if it is not known
   bool list = false;                                                       ///< array or object, left out of tables
   bool clock = false;                                                      ///< measured by the clock, differs between runs
 
@@ -69,6 +70,7 @@ const std::vector<SummaryNumber>& summary_numbers();
 std::vector<SummaryNumber> run_numbers();
 std::vector<SummaryNumber> joint_numbers();
 std::vector<SummaryNumber> motion_numbers();
+std::vector<SummaryNumber> measured_numbers();
 
 /// JSON number, or null for NaN and infinity.
 nlohmann::ordered_json or_null(double value);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "core/settings/wording.h"
@@ -30,12 +31,15 @@ Json numbers_json(const RunData& run) {
   std::vector<Json> joints(run.record.joints.size(), Json::object({{"per_joint", Json::object()}}));
   for (const SummaryNumber& number : summary_numbers()) {
     if (number.of_joint == nullptr) {
-      put(json, number, "", number.value(run));
+      const Json value = number.value(run);
+      if (!value.is_null() || !number.if_known) put(json, number, "", value);
       continue;
     }
     json.emplace("per_joint", Json::object());  // exists also in a robot without joints
-    for (std::size_t j = 0; j < joints.size(); ++j)
-      put(joints[j], number, run.scenario.robot->joints[j].name, number.of_joint(run, j));
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+      const double value = number.of_joint(run, j);
+      if (!std::isnan(value) || !number.if_known) put(joints[j], number, run.scenario.robot->joints[j].name, value);
+    }
   }
   // Appended to the group directly, because a search by path would compare all joint names for each number.
   auto& all = json["per_joint"].get_ref<Json::object_t&>();

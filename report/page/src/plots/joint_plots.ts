@@ -20,7 +20,10 @@ const SOURCE: Record<Cell, string> = {
 };
 
 /** Signals of the chosen joint. Names that end in B are signals of the second run. */
-type Signals = Record<"angle" | "measured" | "setpoint" | "torque" | "stopped" | "angleB" | "torqueB", Values | null>;
+type Signals = Record<
+  "angle" | "measured" | "logged" | "setpoint" | "torque" | "loggedTorque" | "stopped" | "angleB" | "torqueB",
+  Values | null
+>;
 
 export class JointPlots implements Panel {
   private plots: TimePlot[] = [];
@@ -119,6 +122,8 @@ export class JointPlots implements Panel {
     return {
       angle: own("angle"),
       measured: own("measured"),
+      logged: own("logged_angle"),
+      loggedTorque: own("logged_torque"),
       setpoint: own("setpoint"),
       torque,
       stopped: pushed?.some((v) => v !== 0) ? pushed : null,
@@ -127,10 +132,13 @@ export class JointPlots implements Panel {
     };
   }
 
-  private motionCurves({ angle, measured, setpoint, torque, stopped, angleB, torqueB }: Signals): Curve[] {
+  private motionCurves(signals: Signals): Curve[] {
+    const { angle, measured, logged, setpoint, torque, loggedTorque, stopped, angleB, torqueB } = signals;
     const { ink, ghost } = this.desk;
     const label = ghost?.label ?? "";
     return [
+      ...curve(logged, { label: "angle in the log", colour: ink.green, width: 3.5, axis: "left" }),
+      ...curve(loggedTorque, { label: "torque in the log", colour: ink.purple, width: 2.5, axis: "right" }),
       ...curve(measured, { label: "measured angle", colour: ink.orange, width: 3.5, axis: "left" }),
       ...curve(angle, { label: "angle", colour: ink.blue, width: 2, axis: "left" }),
       ...curve(setpoint, { label: "set point", colour: ink.ink, dash: [2, 3], width: 1.3, axis: "left" }),
@@ -141,14 +149,17 @@ export class JointPlots implements Panel {
     ];
   }
 
-  private motionKeys({ measured, setpoint, torque, stopped, angleB, torqueB }: Signals): Key[] {
+  private motionKeys(signals: Signals): Key[] {
+    const { measured, logged, setpoint, torque, loggedTorque, stopped, angleB, torqueB } = signals;
     const { ghost } = this.desk;
     const label = ghost?.label ?? "";
     return [
       ["dots", "--ink", setpoint ? "set point" : ""],
       ["", "--blue", "angle (left)"],
       ["", "--orange", measured ? "measured by its encoder (left)" : ""],
+      ["", "--green", logged ? "angle in the log (left)" : ""],
       ["", "--vermillion", torque ? "torque (right)" : ""],
+      ["", "--purple", loggedTorque ? "torque in the log (right)" : ""],
       ["", "--sky", stopped ? "torque of the hinge's stops (right)" : ""],
       ["dash", "--ink2", angleB || torqueB ? `${label}: dashed` : ""],
       ["", "", ghost && !angleB && !torqueB ? `${label} has no such joint` : ""],

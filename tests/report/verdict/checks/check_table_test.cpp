@@ -92,6 +92,19 @@ std::vector<Expected> of_saturation(const char* id, TickColumn column) {
       {id, stretch, 3 * 0.015, 0}};
 }
 
+/// A log whose angles span 2 rad, with a mean error of `share` of that, in which the motor is never at its limit; the simulated
+/// motor is for `limit` of the time.
+Change off_log(double share, double limit) {
+  return [=](Case& made) {
+    made.scenario.measured.log = std::make_shared<const MeasuredLog>();
+    made.also = [=](Summary& summary, Overlaps&) {
+      JointLogErrors joint{kJoint, {}, limit, 0};
+      joint.errors[static_cast<std::size_t>(Logged::angle)] = LogError{2 * share, 2 * share, 2 * share, 0, 2};
+      summary.log = LogErrors{100, 10, 10, {joint}};
+    };
+  };
+}
+
 std::vector<Expected> table() {
   const double no_load = 7.4 / (0.00395 * 594);          // speed without load u_max / (Ks n), rad/s
   const double stall = 0.7 * 0.00395 * 594 * 7.4 / 4.3;  // eta Kt n u_max / R, N m
@@ -157,6 +170,7 @@ std::vector<Expected> table() {
        0.01, 0.01},
       {"coarse", [](double v) { return [v](Case& made) { made.record.tally.coarse = v * made.record.simulated; }; }, 0.1, 0.1},
       {"law", [](double v) { return [v](Case& made) { made.record.tally.off = v; }; }, 0, 0},
+      {"measured", [](double v) { return off_log(v, 0.1); }, 0.2, 0.2},
   };
   for (const auto& [id, column] : {std::pair{"voltage", kVoltageLimited}, {"current", kCurrentLimited}}) {
     for (Expected& row : of_saturation(id, column)) rows.push_back(std::move(row));
@@ -232,6 +246,11 @@ TEST(CheckTable, SpansDecideOfARunThatIsTooShort) {
     if (check.status != CheckStatus::fail) continue;
     EXPECT_EQ(made.judged().word, check.span == CheckSpan::whole_run ? Word::infeasible : Word::not_judged) << row.id;
   }
+}
+
+TEST(CheckTable, MeasuredAlsoComparesTheTimeAtTheLimit) {
+  EXPECT_EQ(changed("measured", off_log(0.1, 0.0999)).status, CheckStatus::pass);
+  EXPECT_EQ(changed("measured", off_log(0.1, 0.1001)).status, CheckStatus::warn);
 }
 
 /// Checks have the documented spans. The span of `speed` depends on the limit that decides.

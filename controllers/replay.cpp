@@ -1,0 +1,79 @@
+#include "controllers/replay.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "core/files/csv_table.h"
+
+namespace gaitlab::controllers {
+
+const char* const Replay::kManual =
+    R"(The commands of a log, whatever angle and set point are: the motors get what the real motors got.
+
+    u(t) = number in the column / scale, of the last row at or before t, sampled at control ticks
+
+Time 0 is the first row; after the last row its command holds. Joints without a column have the command 0. `unit` is that of the
+commands: V, N m, or duty, the share of the supply. With a section `measured` of the same log, the difference that is left is
+that of motor, friction and load alone, without the firmware. Set points do not act, so that check `tracking` says nothing.
+Source: none; the input of output-error identification (L. Ljung, System Identification, Prentice Hall 1999).
+
+    controller:
+      type: replay
+      period: 0.002
+      file: bench.csv
+      unit: duty
+      columns: [{joint: m0/hinge, column: pwm, scale: 885}])";
+
+void Replay::Column::fields(Fields& f) {
+  f.joint("joint", joint, "The joint.");
+  f.text("column", column, "Its column.");
+  f.number("scale", scale, {"", -1e9, 1e9, "Number in the column for a command of 1; not 0."});
+}
+
+void Replay::Settings::fields(Fields& f) {
+  static constexpr const char* kUnits[] = {"V", "N m", "duty"};
+  f.file("file", file, "The log: a CSV with a line of names, then a line per row.");
+  f.text("time", time, "Column of the times, s, which rise.");
+  f.choice("unit", unit, kUnits, "Unit of the commands.");
+  f.list("columns", columns, "Columns of the commands.");
+}
+
+Replay::Replay(const RobotInfo& robot, const Settings& settings) : unit_(settings.unit), period_(robot.control_period) {
+  const CsvTable log(settings.file);
+  time_ = log.column(settings.time);
+  if (time_.empty()) throw std::invalid_argument("the log has no rows");
+  const double start = time_[0];
+  for (std::size_t k = 0; k < time_.size(); ++k) {
+    time_[k] -= start;
+    if (k > 0 && !(time_[k] > time_[k - 1])) log.fail(k, settings.time, "times must rise");
+  }
+  std::vector<std::vector<double>> columns;
+  for (const Column& one : settings.columns) {
+    if (one.joint < 0) continue;  // an unknown joint, which the reader has reported
+    const auto joint = static_cast<std::size_t>(one.joint);
+    const std::string name(robot.joints[joint].name);
+    if (std::find(joints_.begin(), joints_.end(), joint) != joints_.end())
+      throw std::invalid_argument("joint '" + name + "' has two columns");
+    if (one.scale == 0) throw std::invalid_argument("the scale of joint '" + name + "' is 0");
+    joints_.push_back(joint);
+    columns.push_back(log.column(one.column));
+    for (double& value : columns.back()) value /= one.scale;
+  }
+  values_.reserve(time_.size() * joints_.size());
+  for (std::size_t k = 0; k < time_.size(); ++k) {
+    for (const std::vector<double>& column : columns) values_.push_back(column[k]);
+  }
+}
+
+std::string_view Replay::command_unit() const { return unit_ == Unit::V ? "V" : unit_ == Unit::Nm ? "N m" : "duty"; }
+
+void Replay::update(const Measured&, In, In, Out x, Out command) const {
+  constexpr double kSameTime = 1e-9;  // s; rounding of times
+  const auto next = std::upper_bound(time_.begin(), time_.end(), x[0] * period_ + kSameTime);
+  x[0] += 1;
+  const auto row = static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, next - time_.begin() - 1));
+  std::fill(command.begin(), command.end(), 0.0);
+  for (std::size_t i = 0; i < joints_.size(); ++i) command[joints_[i]] = values_[row * joints_.size() + i];
+}
+
+}  // namespace gaitlab::controllers

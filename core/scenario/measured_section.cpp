@@ -1,0 +1,252 @@
+#include "core/scenario/measured_section.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+
+#include "core/files/csv_table.h"
+#include "core/scenario/scenario.h"
+#include "core/scenario/section_places.h"
+#include "core/scenario/sections.h"
+#include "core/settings/value.h"
+#include "core/settings/wording.h"
+#include "core/settings/writer.h"
+
+namespace gaitlab {
+
+namespace {
+
+constexpr std::array<LoggedKind, kLoggedKinds> kKinds{
+    {{Logged::angle, "angle", "angle_scale", "angle", "rad", "Column of the joint's angle."},
+     {Logged::speed, "speed", "speed_scale", "speed", "rad/s", "Column of the joint's speed."},
+     {Logged::voltage, "voltage", "voltage_scale", "voltage", "V", "Column of the motor's voltage."},
+     {Logged::current, "current", "current_scale", "current", "A", "Column of the motor's current."},
+     {Logged::torque, "torque", "torque_scale", "torque", "N m", "Column of the torque on the joint."},
+     {Logged::duty, "duty", "duty_scale", "", "",
+      "Column of the share of the supply that the servo gives to its motor; only the time at its limit, 1, is compared."}}};
+
+constexpr Spec kScale{"", -1e9, 1e9,
+                      "Number in that column for 1 in SI units, such as 885 for a PWM of 885 at full duty; not 0."};
+
+/// Place of `columns.JOINT.KEY` of the section, or else of the nearest key above it.
+SourceLocation place_in(const Node& section, const std::string& joint, const char* key) {
+  const Node* const columns = section.find("columns");
+  const Node* const of_joint = columns == nullptr ? nullptr : columns->find(joint);
+  const Node* const value = of_joint == nullptr ? nullptr : of_joint->find(key);
+  for (const Node* const node : {value, of_joint, columns}) {
+    if (node != nullptr) return node->place;
+  }
+  return section.place;
+}
+
+/// Reader of the numbers of a log.
+class LogReader {
+ public:
+  LogReader(const Node& section, const Scenario& scenario, Problems& problems)
+      : section_(section), scenario_(scenario), problems_(problems), table_(scenario.measured.file) {}
+
+  MeasuredLog read() {
+    MeasuredLog log;
+    log.t = times();
+    log.on = column(scenario_.measured.on, place_of("on"));
+    for (const LoggedJoint& columns : scenario_.measured.columns) {
+      const std::optional<std::size_t> joint = joint_of(columns);
+      if (!joint) continue;
+      MeasuredLog::OfJoint& of = log.joints.emplace_back(MeasuredLog::OfJoint{*joint, {}});
+      for (const LoggedKind& kind : kKinds) {
+        const auto k = static_cast<std::size_t>(kind.kind);
+        const SourceLocation place = place_in(section_, columns.name, kind.key);
+        of.values[k] = column(columns.columns[k], place);
+        if (columns.scales[k] == 0)
+          problems_.add(place_in(section_, columns.name, kind.scale_key),
+                        fmt::format("{} is 0; expected the number in the log for 1", kind.scale_key));
+        for (double& value : of.values[k]) value /= columns.scales[k];
+      }
+    }
+    return log;
+  }
+
+ private:
+  std::vector<double> times() {
+    std::vector<double> t = column(scenario_.measured.time, place_of("time"));
+    if (t.empty() && table_.rows() > 0) return t;  // there is no such column, which is a problem by now
+    if (t.size() < 2) throw std::invalid_argument(fmt::format("the log has {}; expected at least 2", counted(t.size(), "row")));
+    for (std::size_t k = 1; k < t.size(); ++k) {
+      if (!(t[k] > t[k - 1])) table_.fail(k, scenario_.measured.time, "times must rise");
+    }
+    const double start = t[0];
+    for (double& time : t) time -= start;
+    return t;
+  }
+
+  [[nodiscard]] SourceLocation place_of(const char* key) const {
+    const Node* const stated = section_.find(key);
+    return stated == nullptr ? section_.place : stated->place;
+  }
+
+  /// Numbers of a column; none for "".
+  std::vector<double> column(const std::string& name, const SourceLocation& place) {
+    if (name.empty()) return {};
+    if (table_.has(name)) return table_.column(name);
+    problems_.add(place, fmt::format("the log has no column {}{}", in_quotes(name), offer(name, table_.names(), "columns")));
+    return {};
+  }
+
+  /// Number of a joint whose columns are stated, or nothing after a problem.
+  std::optional<std::size_t> joint_of(const LoggedJoint& columns) {
+    const std::vector<std::string> names = joint_names(*scenario_.robot);
+    const SourceLocation place = place_in(section_, columns.name, "");
+    if (std::string wrong = not_one_joint(columns.name, names); !wrong.empty()) {
+      problems_.add(place, std::move(wrong));
+      return {};
+    }
+    const std::size_t joint = joints_of(columns.name, names).front();
+    const auto stated = [&](const LoggedKind& kind) { return !columns.columns[static_cast<std::size_t>(kind.kind)].empty(); };
+    if (std::ranges::none_of(kKinds, stated)) {
+      problems_.add(place,
+                    fmt::format("no column of joint {} is stated; expected angle, speed, voltage, current, torque or duty",
+                                columns.name));
+      return {};
+    }
+    const auto of_motor = [&](const LoggedKind& kind) { return stated(kind) && kind.kind >= Logged::voltage; };
+    const bool driven = scenario_.robot->joints[joint].driven() && scenario_.actuator.entry != nullptr;
+    if (const auto* const kind = std::ranges::find_if(kKinds, of_motor); !driven && kind != kKinds.end()) {
+      problems_.add(
+          place_in(section_, columns.name, kind->key),
+          fmt::format("joint {} has no motor, and therefore no {}; expected angle or speed", columns.name, kind->key));
+      return {};
+    }
+    return joint;
+  }
+
+  const Node& section_;
+  const Scenario& scenario_;
+  Problems& problems_;
+  CsvTable table_;
+};
+
+void set_places(Node& node, const SourceLocation& place) {
+  node.place = place;
+  for (auto& key : node.keys) key.second = place;
+  for (Node& item : node.items) set_places(item, place);
+}
+
+/// Time of an entry of the section `at`, or 0 if it has none, which its reader reports.
+double time_of(const Node& change) {
+  const Node* const t = change.find("t");
+  return t == nullptr ? 0 : read_number(*t, "").value;
+}
+
+/// Inserts changes, in the order of time, into the section `at`.
+void insert_changes(Node& root, Node changes, const SourceLocation& place) {
+  Node* at = nullptr;
+  for (std::size_t i = 0; i < root.keys.size(); ++i) {
+    if (root.keys[i].first == "at") at = &root.items[i];
+  }
+  if (at == nullptr) {
+    root.keys.emplace_back("at", place);
+    root.items.push_back(std::move(changes));
+  } else if (at->kind == Node::Kind::list) {
+    std::ranges::move(changes.items, std::back_inserter(at->items));
+    std::ranges::stable_sort(at->items, {}, time_of);
+  }
+}
+
+}  // namespace
+
+std::span<const LoggedKind, kLoggedKinds> logged_kinds() { return kKinds; }
+
+double MeasuredLog::at(const std::vector<double>& values, double time) const {
+  const auto next = static_cast<std::size_t>(std::upper_bound(t.begin(), t.end(), time) - t.begin());
+  if (next == t.size()) return time == t.back() ? values.back() : std::numeric_limits<double>::quiet_NaN();
+  const std::size_t row = next == 0 ? 0 : next - 1;
+  return values[row] + (values[row + 1] - values[row]) * (time - t[row]) / (t[row + 1] - t[row]);
+}
+
+void LoggedJoint::fields(Fields& f) {
+  for (const LoggedKind& kind : kKinds) {
+    const auto k = static_cast<std::size_t>(kind.kind);
+    if (brief && columns[k].empty()) continue;
+    Marked(f, Need::optional).text(kind.key, columns[k], kind.about);
+    if (!brief || scales[k] != 1) f.number(kind.scale_key, scales[k], kScale);
+  }
+}
+
+void MeasuredSettings::fields(Fields& f) {
+  f.file("file", file, "The log: a CSV with a line of names, then a line per row; required.");
+  f.text("time", time, "Column of the times, s, which rise; the first is the start of the run.");
+  if (!brief || !on.empty()) {
+    Marked(f, Need::optional)
+        .text("on", on, "Column that is 0 while the motors have no torque: the joints of `columns` are then open.");
+  }
+  if (!brief || !source.empty())
+    Marked(f, Need::optional).text("source", source, "Origin and licence of the log, which page and verdict cite.");
+  for (LoggedJoint& joint : columns) joint.brief = brief;
+  f.by_name("columns", columns, "{angle: COLUMN}", "Columns of each joint that was measured, by its name; required.");
+}
+
+bool MeasuredSettings::reads(const std::string& column) const {
+  if (!any() || !column.starts_with("joint.")) return false;
+  return std::ranges::any_of(log->joints, [&](const MeasuredLog::OfJoint& of) {
+    const std::string start = fmt::format("joint.{}.", of.joint);
+    if (!column.starts_with(start)) return false;
+    const std::string_view quantity = std::string_view(column).substr(start.size());
+    if (quantity == "voltage_command") return !of.of(Logged::duty).empty();
+    return std::ranges::any_of(kKinds,
+                               [&](const LoggedKind& kind) { return quantity == kind.column && !of.of(kind.kind).empty(); }) ||
+           (quantity == "speed" && !of.of(Logged::angle).empty());
+  });
+}
+
+void finish_measured(const Node& node, Scenario& scenario, Problems& problems) {
+  if (node.kind != Node::Kind::map || !scenario.robot) return;
+  const Node* const file = node.find("file");
+  if (file == nullptr) problems.add(node.place, "measured has no file; expected the CSV of the log");
+  if (node.find("columns") == nullptr) problems.add(node.place, "measured has no columns; expected {JOINT: {angle: COLUMN}}");
+  if (file == nullptr || scenario.measured.columns.empty()) return;
+  const std::size_t before = problems.size();
+  try {
+    MeasuredLog log = LogReader(node, scenario, problems).read();
+    if (problems.size() == before) scenario.measured.log = std::make_shared<const MeasuredLog>(std::move(log));
+  } catch (const std::invalid_argument& error) {
+    const bool path = file->text.find('\n') == std::string::npos;
+    problems.add(file->place, path ? fmt::format("log {}, {}", in_quotes(file->text), error.what())
+                                   : fmt::format("the log's {}", error.what()));
+  }
+}
+
+void insert_torque_off(Node& root, Scenario& scenario) {
+  MeasuredSettings& measured = scenario.measured;
+  if (!measured.any() || measured.on.empty()) return;
+  const std::vector<std::string> no_joints;
+  Node joints{Node::Kind::list};
+  for (const MeasuredLog::OfJoint& of : measured.log->joints) {
+    const Joint& joint = scenario.robot->joints[of.joint];
+    if (joint.driven()) joints.items.push_back(text_node(joint.name));
+  }
+  Node changes{Node::Kind::list};
+  bool has_torque = true;
+  for (std::size_t k = 0; k < measured.log->t.size() && measured.log->t[k] < scenario.duration; ++k) {
+    if ((measured.log->on[k] != 0) == has_torque) continue;
+    has_torque = !has_torque;
+    Writer fault(no_joints), change(no_joints);
+    fault.add("joint", joints);
+    fault.add("kind", scalar_node(has_torque ? "none" : "open"));
+    change.add("t", scalar_node(number_text(measured.log->t[k])));
+    change.add("fault", fault.take());
+    changes.items.push_back(change.take());
+  }
+  measured.on.clear();
+  if (changes.items.empty() || joints.items.empty()) return;
+  const SourceLocation place = given(root, kMeasuredSection, "on").value_or(root.place);
+  set_places(changes, place);
+  insert_changes(root, std::move(changes), place);
+}
+
+}  // namespace gaitlab

@@ -1,0 +1,88 @@
+// Summary numbers of the comparison with a log of the real robot.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <deque>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "report/verdict/numbers/number_texts.h"
+#include "report/verdict/numbers/numbers.h"
+
+namespace gaitlab::report {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+using R = const RunData&;
+using Share = std::optional<double> JointLogErrors::*;
+
+struct ErrorMeasure {
+  const char* key;
+  double LogError::*number;
+  const char* definition;
+};
+constexpr ErrorMeasure kMeasures[] = {{"mae", &LogError::mae, "Mean of |simulated - measured|"},
+                                      {"rms", &LogError::rms, "RMS of simulated - measured"},
+                                      {"peak", &LogError::peak, "Largest |simulated - measured|"}};
+
+struct LimitShare {
+  const char* key;
+  Share share;
+  const char* definition;
+};
+constexpr LimitShare kShares[] = {
+    {"limit.simulated", &JointLogErrors::at_limit,
+     "Share of the rows of the log in which the simulated motor gets its whole supply, whatever its current"},
+    {"limit.logged", &JointLogErrors::measured_at_limit, "Share of the rows of the log with a duty of at least 0.999"}};
+
+Json known(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
+
+double of_joint(R run, std::size_t joint, const std::function<std::optional<double>(const JointLogErrors&)>& of) {
+  const JointLogErrors* const errors = run.summary.log ? run.summary.log->of(joint) : nullptr;
+  return errors == nullptr ? std::nan("") : of(*errors).value_or(std::nan(""));
+}
+
+}  // namespace
+
+std::vector<SummaryNumber> measured_numbers() {
+  static std::deque<std::string> texts;  // keys and definitions, which the list points to
+  texts.clear();
+  const auto text = [](std::string one) { return texts.emplace_back(std::move(one)).c_str(); };
+  std::vector<SummaryNumber> all;
+  const auto add = [&](const std::string& key, const char* unit, const std::string& definition, auto value, auto of) {
+    all.push_back({.key = text("measured." + key),
+                   .unit = unit,
+                   .definition = text(definition + "; mean of all joints that the log has."),
+                   .value = value,
+                   .if_known = true});
+    all.push_back({.key = text("per_joint.J.measured." + key),
+                   .unit = unit,
+                   .definition = text(definition + "."),
+                   .of_joint = [of](R run, std::size_t joint) { return of_joint(run, joint, of); },
+                   .if_known = true});
+  };
+  for (const LoggedKind& kind : logged_kinds()) {
+    if (*kind.column == '\0') continue;
+    for (const ErrorMeasure& measure : kMeasures) {
+      add(
+          fmt::format("{}.{}", kind.key, measure.key), kind.unit,
+          fmt::format("{} of the {}, over the rows of the log", measure.definition, kind.key),
+          [of = kind.kind, number = measure.number](R run) {
+            return run.summary.log ? known(run.summary.log->mean(of, number)) : Json();
+          },
+          [of = kind.kind, number = measure.number](const JointLogErrors& joint) {
+            return joint.of(of) ? std::optional(*joint.of(of).*number) : std::nullopt;
+          });
+    }
+  }
+  for (const LimitShare& one : kShares) {
+    add(
+        one.key, "", one.definition,
+        [share = one.share](R run) { return run.summary.log ? known(run.summary.log->mean(share)) : Json(); },
+        [share = one.share](const JointLogErrors& joint) { return joint.*share; });
+  }
+  return all;
+}
+
+}  // namespace gaitlab::report
