@@ -100,6 +100,7 @@ void take_demand(const Scenario& scenario, const Recording& recording, const rep
                  bool quiet) {
   if (Judged::limited(summary.judged.joints) == 0) {
     verdict.demand_doubt = "no motor reaches a limit, so that this run shows all that the gait demands";
+    verdict.supply_demand = report::supply_demand(scenario, recording, summary.judged);
     return;
   }
   Catalog catalog = standard_catalog();  // the plugins of the run are already loaded

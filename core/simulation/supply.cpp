@@ -108,12 +108,19 @@ BusState solve(const Supply& supply, const std::vector<BusMotor>& motors) {
   return found(V0 / 2, false);
 }
 
+BusState held(const Supply& supply, const std::vector<BusMotor>& motors) {
+  double power = 0;
+  for (const BusMotor& one : motors) power += (*one.motor)(one.volts(supply.voltage), one.speed).drawn;
+  return {supply.voltage, (supply.regenerates ? power : std::max(0.0, power)) / supply.voltage, true};
+}
+
 LaneSupply::LaneSupply(const Scenario& scenario, const LaneChanges& changes, const DcMotor* motors, std::size_t lane,
                        std::size_t lanes)
     : lane_(lane),
       lanes_(lanes),
       duty_(changes.controller(0)->command_unit() == "duty"),
       supply_(scenario.supply),
+      unlimited_(!scenario.duty_volts.empty()),
       volts_(scenario.duty_volts) {
   if (motors == nullptr || !(duty_ || supply_.any())) return;
   motors_ = motors;
@@ -137,12 +144,13 @@ void LaneSupply::apply(std::size_t segment, In speed, Out command, Out bound) {
     const std::size_t j = joints_[k];
     on_bus_[k] = {&motors_[j * lanes_ + lane_], speed[j], command[j], duty_, most_[segment][j]};
   }
-  if (supply_.any()) state_ = solve(supply_, on_bus_);
+  if (supply_.any()) state_ = unlimited_ ? held(supply_, on_bus_) : solve(supply_, on_bus_);
+  const bool bounds = supply_.any() && !unlimited_;
   for (std::size_t k = 0; k < joints_.size(); ++k) {
     const std::size_t j = joints_[k];
-    const double bus = supply_.any() ? state_.voltage : volts_[j];
+    const double bus = bounds ? state_.voltage : volts_[j];
     command[j] = on_bus_[k].volts(bus);
-    if (supply_.any() || on_bus_[k].most < 1) bound[j] = on_bus_[k].bound(bus);
+    if (bounds || on_bus_[k].most < 1) bound[j] = on_bus_[k].bound(bus);
   }
 }
 

@@ -28,6 +28,9 @@ struct BusMotor {
 /// as 0, unless the supply regenerates. The result is the largest solution, to 1e-13 of V0.
 BusState solve(const Supply& supply, const std::vector<BusMotor>& motors);
 
+/// The bus of a supply that holds its open-circuit voltage, whatever the motors draw, and bounds no command.
+BusState held(const Supply& supply, const std::vector<BusMotor>& motors);
+
 /// Commands of a lane in volts, and their bounds.
 class LaneSupply {
  public:
@@ -47,6 +50,7 @@ class LaneSupply {
   std::size_t lane_ = 0, lanes_ = 1;
   bool duty_ = false;
   Supply supply_;                          ///< as built
+  bool unlimited_ = false;                 ///< true in a run without motor limits: the supply bounds no command
   std::vector<double> volts_;              ///< of duty 1 by joint without a supply
   std::vector<std::vector<double>> most_;  ///< largest duty by segment and joint
   std::vector<BusMotor> on_bus_;           ///< of driven joints

@@ -21,6 +21,8 @@ const std::vector<RemedyKey> kKeys{
     {"u_max with i_max", {"actuator.u_max", "actuator.i_max"}, ""},
     {"stall_torque", {"actuator.stall_torque"}, "N m"},
     {"no_load_speed", {"actuator.no_load_speed"}, "rad/s", {"actuator.stall_current"}},
+    {"supply.voltage", {"supply.voltage"}, "V", {}, false, true},
+    {"supply.resistance", {"supply.resistance"}, "ohm", {}, false, true},
     {"Kp", {"controller.Kp"}, ""},
     {"gain", {"controller.gain"}, ""},
     {"P", {"controller.P"}, ""},
@@ -78,11 +80,12 @@ std::pair<std::string, std::string> split(const std::string& path) {
 std::span<const RemedyKey> remedy_keys() { return kKeys; }
 
 RemedySettings::RemedySettings(const std::string& resolved) : root_(parse_yaml(resolved, "the resolved scenario")) {
-  take_supply();
+  take_voltage();
 }
 
 /// Replaces the numbers 0 of `u_max` by the numbers of `voltage`.
-void RemedySettings::take_supply() {
+void RemedySettings::take_voltage() {
+  if (find("supply") != nullptr) return;
   Node* const actuator = child(root_, "actuator");
   const Node* const voltage = actuator == nullptr ? nullptr : actuator->find("voltage");
   if (voltage == nullptr) return;
@@ -130,13 +133,22 @@ bool RemedySettings::changes_in_time(const std::string& path) const {
 
 std::string RemedySettings::missing(const RemedyKey& key) const {
   for (const char* path : key.paths) {
-    if (std::ranges::none_of(numbers(path), [](double value) { return value != 0; })) {
-      return find("actuator.voltage") != nullptr && std::string_view(path) == "actuator.i_max" ? "0: the stall current at u_max"
-                                                                                               : "missing or 0";
-    }
+    if (std::ranges::none_of(numbers(path), [](double value) { return value != 0; })) return none_of(path);
     if (changes_in_time(path)) return "set by `at`";
   }
   return "";
+}
+
+bool RemedySettings::concerns(const RemedyKey& key) const {
+  return !key.of_option || find(split(key.paths.front()).first) != nullptr;
+}
+
+/// Reason why a path has no number other than 0.
+std::string RemedySettings::none_of(const std::string& path) const {
+  const bool servo = find("actuator.voltage") != nullptr;
+  if (servo && path == "actuator.i_max") return "0: the stall current at `voltage`";
+  if (servo && path == "actuator.u_max" && find("supply") != nullptr) return "0: the voltage of the supply";
+  return "missing or 0";
 }
 
 double RemedySettings::value(const RemedyKey& key) const {

@@ -72,7 +72,7 @@ std::string rating_text(const RatingNeeded& rating) {
   const std::string value = fmt::format("{:.4g} {}", rating.rating, rating.unit);
   const std::string needed =
       dock ? fmt::format("docks that hold {} of {}", value, load) : fmt::format("{} >= {}", rating.setting, value);
-  return fmt::format("{} (now {:.4g} {}; {})", needed, rating.now, rating.unit, parts);
+  return fmt::format("{} (now {:.4g} {}{})", needed, rating.now, rating.unit, parts.empty() ? "" : "; " + parts);
 }
 
 /// `a, b or c`

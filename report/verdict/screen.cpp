@@ -8,6 +8,7 @@
 #include "core/settings/wording.h"
 #include "report/analysis/changes.h"
 #include "report/analysis/posture.h"
+#include "report/verdict/demand.h"
 #include "report/verdict/numbers/number_texts.h"
 
 namespace gaitlab::report {
@@ -121,6 +122,7 @@ std::vector<ScreenLine> first_screen(const RunData& run, const Verdict& verdict,
   if (const std::string tightest = tightest_text(verdict); !led && verdict.unstable.empty() && !tightest.empty())
     screen.add("tightest", tightest);
   if (!verdict.demand_doubt.empty()) screen.add("demand", verdict.demand_doubt, Tone::doubtful);
+  if (verdict.supply_demand) screen.add(verdict.demand_doubt.empty() ? "demand" : "", text_of(*verdict.supply_demand));
   if (!verdict.unstable.empty()) return screen.lines;  // all else follows from it
   add_kind(screen, verdict.failures(), led ? 1 : 0, most, "fails", Tone::bad);
   add_kind(screen, of_status(verdict, CheckStatus::too_close), 0, most, "too close", Tone::doubtful);

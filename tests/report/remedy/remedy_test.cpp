@@ -67,7 +67,7 @@ TEST(RemedySettings, ASupplyOfZeroIsTheVoltageOfTheServo) {
   const RemedySettings settings(
       "actuator: {voltage: 6, stall_torque: 1, no_load_speed: 5, stall_current: 2, u_max: 0, i_max: 0}\n");
   EXPECT_EQ(settings.value(remedy_key("u_max")), 6);
-  EXPECT_EQ(settings.missing(remedy_key("i_max")), "0: the stall current at u_max");
+  EXPECT_EQ(settings.missing(remedy_key("i_max")), "0: the stall current at `voltage`");
   EXPECT_EQ(settings.scaled(remedy_key("no_load_speed"), 2), (Sets{"actuator.no_load_speed=10", "actuator.stall_current=4"}))
       << "a motor of this torque that is twice as fast draws twice the current";
 }
