@@ -5,6 +5,11 @@
 
 namespace gaitlab::report {
 
+double BusUse::endurance(double capacity) const {
+  constexpr double kMinutes = 60;  // of an hour
+  return capacity > 0 && current > 0 ? kMinutes * capacity / current : NAN;
+}
+
 std::optional<BusUse> bus_use(const Recording& record, std::size_t first) {
   const Trace& bus = record.supply;
   if (bus.rows() < 2 || first + 1 >= bus.rows()) return {};

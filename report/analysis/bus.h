@@ -11,6 +11,8 @@ struct BusUse {
   double voltage_least = 0, least_time = 0;               ///< V, and its time, s
   double current_peak = 0, current_rms = 0, current = 0;  ///< A; `current` is the mean
   bool held = true;                                       ///< false if no voltage satisfied the law of the bus at some tick
+  /// Time until the mean current has drawn this charge, min, or NaN. `capacity`: A h; 0: not stated.
+  [[nodiscard]] double endurance(double capacity) const;
 };
 
 /// From row `first` of Recording::supply to its end; nothing if the run has no supply, or if a number is not finite.

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/settings/wording.h"
+#include "report/analysis/bus.h"
 #include "report/analysis/changes.h"
 #include "report/analysis/posture.h"
 #include "report/verdict/demand.h"
@@ -92,6 +93,15 @@ std::string gait(const RunData& run) {
   return text;
 }
 
+/// `42.3 min: 1.8 A h at a mean current of 2.55 A`; empty without a capacity or a current.
+std::string endurance(const RunData& run) {
+  const double capacity = run.scenario.supply.capacity;
+  const std::optional<BusUse> use = bus_use(run.record, run.summary.judged.first_row);
+  const double minutes = use ? use->endurance(capacity) : NAN;
+  if (!std::isfinite(minutes)) return "";
+  return fmt::format("{:.3g} min: {:.4g} A h at a mean current of {:.3g} A", minutes, capacity, use->current);
+}
+
 Tone tone_of(Word word) { return word == Word::feasible ? Tone::good : word == Word::not_judged ? Tone::doubtful : Tone::bad; }
 
 }  // namespace
@@ -133,6 +143,7 @@ std::vector<ScreenLine> first_screen(const RunData& run, const Verdict& verdict,
   std::erase_if(open, [](const Check* check) { return !check->concerns; });
   if (!open.empty()) screen.add("unknown", names(open) + " (gaitlab explain verdict)");
   if (const std::string text = gait(run); !text.empty()) screen.add("gait", text);
+  if (const std::string text = endurance(run); !text.empty()) screen.add("endurance", text);
   const char* title = "changes";
   for (const ToldChange& change : told_changes(run.scenario, run.record.simulated)) {
     screen.add(title, fmt::format("{:.4g} s: {}", change.t, change.text));

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cmath>
 #include <map>
+#include <nlohmann/json.hpp>
 
 #include "report/analysis/collisions.h"
 #include "report/remedy/remedy.h"
@@ -131,6 +132,19 @@ TEST(Supply, IsReadBackFromTheRun) {
   const Result again = gaitlab("report r", folder.path().string());
   EXPECT_TRUE(contains(again.out, "infeasible: the bus sags to")) << again.out << again.err;
   EXPECT_FALSE(contains(again.err, "belongs to another")) << again.err;
+}
+
+TEST(Supply, HasALineOfItsEnduranceWhereACapacityIsStated) {
+  const Folder folder;
+  folder.write("s.yaml", rods(0.3));
+  const Result run = gaitlab("run s.yaml --out r --no-report", folder.path().string());
+  const auto summary = nlohmann::json::parse(read(folder / "r/summary.json"));
+  const double minutes = summary["supply"]["endurance"];
+  // A battery of 1 A h; the mean current of the window is not far from the RMS, which is larger.
+  EXPECT_GT(minutes, 60 / summary["supply"]["current_rms"].get<double>());
+  EXPECT_TRUE(contains(run.out, fmt::format("  endurance {:.3g} min: 1 A h at a mean current of ", minutes))) << run.out;
+  const Result without = gaitlab("run s.yaml --out w --no-report --set supply.capacity=0", folder.path().string());
+  EXPECT_FALSE(contains(without.out, "endurance")) << without.out;
 }
 
 TEST(Supply, NumbersThatAreNotFiniteAreNoEvidence) {

@@ -250,15 +250,13 @@ std::vector<SummaryNumber> run_numbers() {
        .unit = "A",
        .definition = "Largest current of the supply in the window, at control ticks.",
        .value = [](R r) { return of_bus(r, [](const BusUse& bus) { return bus.current_peak; }); }},
-      {.key = "endurance",
+      {.key = "supply.endurance",
        .unit = "min",
        .definition = "Time until the mean current of the window has drawn supply.capacity; null if the capacity is not stated.",
        .value =
            [](R r) {
              const double capacity = r.scenario.supply.capacity;
-             const Json mean = of_bus(r, [](const BusUse& bus) { return bus.current; });
-             if (!(capacity > 0) || mean.is_null() || !(mean.get<double>() > 0)) return Json();
-             return Json(60 * capacity / mean.get<double>());
+             return of_bus(r, [&](const BusUse& bus) { return bus.endurance(capacity); });
            }},
       {.key = "wall_time",
        .unit = "s",
