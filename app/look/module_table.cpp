@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
 
+#include "app/look/cells.h"
 #include "core/model/docking.h"
 #include "core/model/outline.h"
 #include "core/model/solid.h"
@@ -20,24 +20,6 @@ namespace gaitlab::app {
 using namespace report;
 
 namespace {
-
-using Cells = std::vector<std::string>;
-
-/// Table text with columns as wide as their widest cell, indented and separated by two blanks. The first row is the header.
-std::string aligned(const std::vector<Cells>& rows) {
-  std::vector<std::size_t> width(rows.front().size());
-  for (const Cells& row : rows) {
-    for (std::size_t i = 0; i < row.size(); ++i) width[i] = std::max(width[i], row[i].size());
-  }
-  std::string text;
-  for (const Cells& row : rows) {
-    std::string line;
-    for (std::size_t i = 0; i < row.size(); ++i) line += fmt::format("  {:<{}}", row[i], width[i]);
-    line.erase(line.find_last_not_of(' ') + 1);
-    text += line + "\n";
-  }
-  return text;
-}
 
 double mass_of(const ModuleType& type) {
   double mass = 0;
@@ -93,7 +75,7 @@ std::string hinges(const Robot& robot, const Motors& known) {
                     quantity(motor.no_load, "rad/s"), quantity(motor.continuous, "A"),
                     hinge.passive ? spring_of(*hinge.passive) : ""});
   }
-  return rows.size() > 1 ? aligned(rows) : "  no hinges\n";
+  return rows.size() > 1 ? cells_text(rows) : "  no hinges\n";
 }
 
 /// Centre of mass, m, with 0 in place of coordinates that are only rounding errors.
@@ -115,7 +97,7 @@ std::string bodies(const ModuleType& type) {
                     fmt::format("{:.4g} {:.4g} {:.4g} mm", com.x(), com.y(), com.z()),
                     fmt::format("{:.4g} {:.4g} {:.4g}", body.inertia(0, 0), body.inertia(1, 1), body.inertia(2, 2))});
   }
-  return aligned(rows);
+  return cells_text(rows);
 }
 
 std::string faces(const ModuleType& type) {
@@ -128,7 +110,7 @@ std::string faces(const ModuleType& type) {
     rows.push_back({std::to_string(face.id), type.bodies[face.body].name, name_of(face.gender),
                     face.connector.empty() ? "-" : face.connector, turns, direction(face.normal)});
   }
-  return rows.size() > 1 ? aligned(rows) : "  no faces\n";
+  return rows.size() > 1 ? cells_text(rows) : "  no faces\n";
 }
 
 std::string connectors(const ModuleType& type) {
@@ -137,7 +119,7 @@ std::string connectors(const ModuleType& type) {
     rows.push_back(
         {name, stated(one.tension, "N"), stated(one.shear, "N"), stated(one.bending, "N m"), stated(one.torsion, "N m")});
   }
-  return rows.size() > 1 ? aligned(rows) : "";
+  return rows.size() > 1 ? cells_text(rows) : "";
 }
 
 /// Adds a line `WHERE: SOURCE` for every `source` in the document, where WHERE is the path of its keys.
