@@ -134,6 +134,30 @@ TEST(Supply, IsReadBackFromTheRun) {
   EXPECT_FALSE(contains(again.err, "belongs to another")) << again.err;
 }
 
+/// A rod that starts at 25 rad/s against its command charges the battery: V = V0 - r I.
+TEST(Supply, AChargedBatteryRaisesTheBoundOfAStatedUMaxAlone) {
+  const auto largest = [](const std::string& u_max) {
+    const Scenario s = scenario(
+        rod() + kNoGround + kBusServo + "supply: {voltage: 7.4, resistance: 0.8, regenerates: true}\ninitial: {speeds: 25}\n" +
+            "controller: {type: rc_servo, period: 0.01, gain: 100}\ncpg: {type: keyframes, model: {frames: [{time: 0, angles: "
+            "9}, {time: 1, angles: 9}]}}\nduration: 0.1\ntrace: {period: 0.01, columns: [t, joint.*, supply.*]}\n",
+        u_max.empty() ? std::vector<std::string>{} : std::vector<std::string>{"actuator.u_max=" + u_max});
+    const Recording r = run(s);
+    const Table row(r.trace);
+    double most = 0;
+    for (std::size_t k = 1; k < r.trace.rows(); ++k) {
+      if (row.at(k, "supply.current") < 0) {
+        EXPECT_GT(row.at(k, "supply.voltage"), 7.4);
+      }
+      most = std::max(most, std::abs(row.at(k, "joint.0.voltage")));
+    }
+    EXPECT_LT(row.at(1, "supply.current"), 0);
+    return most;
+  };
+  EXPECT_EQ(largest(""), 7.4);
+  EXPECT_GT(largest("12"), 7.5);
+}
+
 TEST(Supply, HasALineOfItsEnduranceWhereACapacityIsStated) {
   const Folder folder;
   folder.write("s.yaml", rods(0.3));
