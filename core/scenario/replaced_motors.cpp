@@ -11,7 +11,7 @@ namespace gaitlab {
 ReplacedMotors::ReplacedMotors(const Node& root, const Scenario& scenario, const TypePresets& presets)
     : place_(place_of(root, "actuator", "type")),
       actuator_(scenario.actuator.entry->name),
-      source_(scenario.actuator_source),
+      source_(without_defaults(scenario.actuator_source, *scenario.actuator.entry)),
       why_(presets.why()) {
   const Entry& entry = *scenario.actuator.entry;
   if (presets.holds(entry)) return;
@@ -26,7 +26,7 @@ ReplacedMotors::ReplacedMotors(const Node& root, const Scenario& scenario, const
   }
   for (const auto& [key, place] : section == nullptr ? std::vector<std::pair<std::string, SourceLocation>>() : section->keys)
     given_ = given_ || (key != "type" && key != "source");
-  if (!source_.empty() && !assumed.empty()) source_ = by_default(assumed, entry) + "; the rest: " + source_;
+  if (!source_.empty() && !assumed.empty()) source_ = with_defaults(assumed, entry, source_);
 }
 
 std::vector<Note> ReplacedMotors::notes() const {

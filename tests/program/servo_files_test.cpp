@@ -37,6 +37,27 @@ TEST(ServoFiles, EveryShippedServoIsAMotorWithItsFirmware) {
   EXPECT_GE(firmware, 4);
 }
 
+/// A run is read back with the source that it had, however often.
+TEST(ServoFiles, TheSourceOfARecordIsNotNested) {
+  const Folder folder;
+  for (const std::string actuator : {"type: servo, model: s3003", "type: servo, model: mx-64, u_max: 9, source: measured",
+                                     "type: servo, voltage: 5, stall_torque: 1, no_load_speed: 6, source: a sheet",
+                                     "type: dc_motor, R: 4, source: a sheet"}) {
+    const Scenario s = scenario(with(actuator));
+    std::string text = resolved(s);
+    for (int again = 0; again < 3; ++again) {
+      const Scenario record = read_record(text, folder / "resolved.yaml", {}, catalog());
+      EXPECT_EQ(record.actuator_source, s.actuator_source);
+      text = resolved(record);
+    }
+    EXPECT_EQ(text, resolved(s));
+  }
+  const Scenario changed = read_record(resolved(scenario(with("type: servo, model: s3003"))), folder / "resolved.yaml",
+                                       {"actuator.dry_friction=0.01"}, catalog());
+  EXPECT_TRUE(changed.actuator_source.starts_with("chosen: load_friction, viscous_friction, rotor_inertia by default of "))
+      << changed.actuator_source;
+}
+
 TEST(ServoFiles, AKeyOfTheScenarioCountsFirst) {
   const Scenario s =
       scenario(with("type: servo, model: s3003, u_max: 6, source: measured", "type: rc_servo, model: mx-64, P: 64"));
