@@ -27,6 +27,7 @@ class Controller {
   [[nodiscard]] virtual std::string_view command_unit() const = 0;
   [[nodiscard]] virtual std::size_t states() const { return 0; }
   virtual void start(Out) const {}
+  [[nodiscard]] virtual std::string note() const { return {}; }  ///< one line for the user about the set-up
   /// By joint; empty if the law is of another kind.
   [[nodiscard]] virtual std::vector<PositionGains> gains() const { return {}; }
   /// Every span except x has one entry per joint. `command_limit` is Actuator::command_limit(), in the unit of the command

@@ -326,7 +326,9 @@ class ScenarioReader {
 
   void make_plugins(const SectionFields& sections) {
     if (!scenario_.robot) return;
-    if (!cpg_note_.text.empty()) std::erase(scenario_.notes, cpg_note_);  // removes the note of the template's CPG
+    for (const Note* const old : {&cpg_note_, &controller_note_}) {  // of the template's plugins
+      if (!old->text.empty()) std::erase(scenario_.notes, *old);
+    }
     const RobotInfo robot = plugin_info(scenario_);
     std::unique_ptr<Actuator> actuator;
     std::unique_ptr<Controller> controller;
@@ -335,6 +337,9 @@ class ScenarioReader {
     });
     attempt([&] {
       if (sections.controller.sound && !sections.actuator.none) controller = make_controller(scenario_.controller, robot);
+      if (!controller || controller->note().empty()) return;
+      controller_note_ = {{path_}, "controller: " + controller->note()};
+      scenario_.notes.push_back(controller_note_);
     });
     attempt([&] {
       if (!sections.has_cpg || !sections.cpg.sound) return;
@@ -362,7 +367,7 @@ class ScenarioReader {
   Node root_;
   Scenario scenario_;
   std::shared_ptr<const std::vector<std::string>> joints_, modules_;  ///< names; null if the robot could not be read
-  Note cpg_note_, source_note_;
+  Note cpg_note_, controller_note_, source_note_;
   std::vector<Note> motor_notes_;
   std::vector<std::pair<std::string, Node>> with_models_;  ///< sections that name a servo, as written
   TouchedSections touched_;
