@@ -24,14 +24,26 @@ constexpr std::array kServoSections{"actuator", "controller"};
 
 Node* find(Node& map, const std::string& key) { return const_cast<Node*>(std::as_const(map).find(key)); }
 
+/// A document that names servos, and what is found on the way.
+struct Search {
+  const std::string& folder;  ///< of the document
+  Problems& problems;
+  std::vector<Problem>& notes;
+};
+
 /// Path of the file that `name` means; adds a problem and returns "" if there is none.
-std::string path_of(const Node& name, const std::string& folder, Problems& problems) {
+std::string path_of(const Node& name, const Search& search) {
+  const auto& [folder, problems, notes] = search;
   const std::string& text = name.text;
   if (text.find('/') != std::string::npos || text.ends_with(".yaml")) return path_from(folder, text);
   if (const auto file =
           file_of_name({path_from(folder, "servos/" + text + ".yaml"), path_from(folder, "../servos/" + text + ".yaml")},
-                       data_folder() + "/servos/" + text + ".yaml"))
+                       data_folder() + "/servos/" + text + ".yaml")) {
+    std::string hidden = note_of_hidden(text, *file);
+    if (!hidden.empty() && std::ranges::find(notes, hidden, &Problem::text) == notes.end())
+      notes.push_back({name.place, std::move(hidden)});
     return file->path;
+  }
   std::vector<std::string> known;
   for (const auto& [servo, path] : shipped_files("servo")) known.push_back(servo);
   problems.add(name.place, "no servo " + in_quotes(text) + offer(text, known, "servos"));
@@ -140,7 +152,8 @@ void remove(Node& map, const Node* value) {
 }
 
 /// `of_hinge`: the map is that of a hinge, whose type is that of the module.
-void insert(Node& map, const std::string& section, bool of_hinge, const std::string& folder, Problems& problems) {
+void insert(Node& map, const std::string& section, bool of_hinge, const Search& search) {
+  const auto& [folder, problems, notes] = search;
   const Node* const model = map.find(kServoModel);
   if (model == nullptr) return;
   const Node name = *model;
@@ -150,7 +163,7 @@ void insert(Node& map, const std::string& section, bool of_hinge, const std::str
     problems.add(name.place, fmt::format("model is {}; expected the name of a servo (gaitlab list servo)", found(name)));
     return;
   }
-  const std::string path = path_of(name, folder, problems);
+  const std::string path = path_of(name, search);
   if (path.empty()) return;
   Problems found_in_file;
   std::optional<ServoFile> servo;
@@ -193,11 +206,11 @@ void insert(Node& map, const std::string& section, bool of_hinge, const std::str
   put(map, map.items.size(), "source", std::move(text));
 }
 
-void insert_all(Node& document, bool of_hinge, const std::string& folder, Problems& problems) {
+void insert_all(Node& document, bool of_hinge, const Search& search) {
   for (const char* const section : kServoSections) {
     Node* const map = find(document, section);
     if (map == nullptr || map->kind != Node::Kind::map) continue;
-    insert(*map, section, of_hinge, folder, problems);
+    insert(*map, section, of_hinge, search);
   }
 }
 
@@ -238,12 +251,13 @@ std::optional<ServoFile> read_servo(const std::string& path, const SourceLocatio
   return servo;
 }
 
-void insert_servos(Node& document, const std::string& folder, Problems& problems) {
-  insert_all(document, false, folder, problems);
+void insert_servos(Node& document, const std::string& folder, Problems& problems, std::vector<Problem>& notes) {
+  const Search search{folder, problems, notes};
+  insert_all(document, false, search);
   Node* const hinges = find(document, "hinges");
   if (hinges == nullptr) return;
   for (Node& hinge : hinges->items) {
-    if (hinge.kind == Node::Kind::map) insert_all(hinge, true, folder, problems);
+    if (hinge.kind == Node::Kind::map) insert_all(hinge, true, search);
   }
 }
 

@@ -119,7 +119,12 @@ class ScenarioReader {
       const Node* const node = root_.find(section);
       if (node != nullptr && node->find(kServoModel) != nullptr) with_models_.emplace_back(section, *node);
     }
-    insert_servos(root_, folder_, problems_);
+    std::vector<Problem> hiding;
+    insert_servos(root_, folder_, problems_, hiding);
+    for (const Note& note : servo_notes_) std::erase(scenario_.notes, note);  // removes those of the template's servos
+    servo_notes_.clear();
+    for (Problem& note : hiding) servo_notes_.push_back({note.place, std::move(note.text)});
+    scenario_.notes.insert(scenario_.notes.end(), servo_notes_.begin(), servo_notes_.end());
   }
 
   void add_note(std::string text) {
@@ -368,7 +373,7 @@ class ScenarioReader {
   Scenario scenario_;
   std::shared_ptr<const std::vector<std::string>> joints_, modules_;  ///< names; null if the robot could not be read
   Note cpg_note_, controller_note_, source_note_;
-  std::vector<Note> motor_notes_;
+  std::vector<Note> motor_notes_, servo_notes_;
   std::vector<std::pair<std::string, Node>> with_models_;  ///< sections that name a servo, as written
   TouchedSections touched_;
 };

@@ -184,6 +184,31 @@ TEST(ServoFiles, EveryNumberHasOneSource) {
   expect("", "source");
 }
 
+TEST(ServoFiles, AFileThatHidesAShippedOneHasANote) {
+  const Folder folder;
+  std::filesystem::create_directory(folder / "servos");
+  const std::string own =
+      "gaitlab_servo: 1\nname: s3003\nsource: a bench\nactuator: {type: servo, voltage: 5, stall_torque: 1, no_load_speed: "
+      "6}\n";
+  folder.write("servos/s3003.yaml", own);
+  const std::string note =
+      "'s3003' is the file '" + (folder / "servos/s3003.yaml") + "', not the one of that name that comes with gaitlab";
+  const std::string file = folder.write("s.yaml", with("type: servo, model: s3003"));
+  const auto hiding = [&](const Scenario& s) {
+    return std::ranges::count_if(s.notes, [&](const Note& one) { return one.text == note && one.place.line > 0; });
+  };
+  EXPECT_EQ(hiding(read_scenario(file, {}, catalog())), 1);
+  const ScenarioTemplate all(file, {}, catalog());
+  EXPECT_EQ(hiding(all.with({"actuator.u_max=4"})), 1);
+  EXPECT_EQ(hiding(all.with({"actuator.model=sg92r"})), 0);
+  std::string module = with("");
+  module.replace(module.find("actuator: {}\n"), 13, "");
+  module.replace(module.find("    name: rod\n"), 14, "    name: rod\n    actuator: {type: servo, model: s3003}\n");
+  EXPECT_EQ(hiding(read_scenario(folder.write("m.yaml", module), {}, catalog())), 1);
+  folder.write("servos/s3003.yaml", read(shipped_files("servo").at("s3003")));
+  EXPECT_EQ(hiding(read_scenario(file, {}, catalog())), 0) << "the same content hides nothing";
+}
+
 TEST(ServoFiles, ErrorsNameTheNearestServo) {
   expect_refusal(with("type: servo, model: xl330-m28"), "no servo 'xl330-m28'; did you mean 'xl330-m288'?");
   expect_refusal(with("type: dc_motor, model: s3003"), "servo 's3003' is for actuator 'servo', not 'dc_motor'");
