@@ -132,7 +132,9 @@ std::vector<PositionGains> RcServo::gains() const {
                    .every = s_.every,
                    .key = own ? "gain" : "P",
                    .unit = own ? "/rad" : "",
-                   .per_key = own ? 1 : P / s_.P[j]});
+                   .per_key = own ? 1 : P / s_.P[j],
+                   .key_of_D = "D",
+                   .unit_of_D = "s/rad"});
   }
   return all;
 }

@@ -14,6 +14,8 @@ struct PositionGains {
   const char* key = "Kp";      ///< key that states P
   const char* unit = "";       ///< unit of that key
   double per_key = 1;          ///< P per unit of that key
+  const char* key_of_D = "Kd";
+  const char* unit_of_D = "";
   static constexpr double infinity = std::numeric_limits<double>::infinity();
 };
 

@@ -40,7 +40,7 @@ class RemedySearch {
   RemedySearch(const RemedyTask& task, std::atomic<bool>& stop)
       : task_(task),
         stop_(stop),
-        made_{RemedySettings(resolved(task.scenario)), hash(resolved(task.scenario))},
+        made_{settings_of(task.scenario), hash(resolved(task.scenario))},
         work_(task.scenario.physics.engine->name == kFastEngine ? kEstimateRatio : kEngineRatio) {
     made_.word = task.verdict.word;
     made_.engine = made_.own_engine = task.scenario.physics.engine->name;

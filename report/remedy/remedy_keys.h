@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "core/plugin/controller.h"
+#include "core/scenario/scenario.h"
 #include "core/settings/node.h"
 
 namespace gaitlab::report {
@@ -16,6 +18,7 @@ struct RemedyKey {
   std::vector<const char*> also = {};  ///< keys that change by the same factor if the scenario has them
   bool stretches = false;              ///< true: a smaller value makes the duration longer, so that the run has as many periods
   bool of_option = false;  ///< true: a key of a section that most scenarios lack; only a scenario with it lists the key
+  bool is_gain = false;    ///< true: the position gain, under the key that the controller declares
 };
 
 /// All settings that a remedy may change, in the order in which they are printed.
@@ -26,8 +29,12 @@ std::span<const RemedyKey> remedy_keys();
 /// A path `ground.boxes.friction` means this key in every entry of a list.
 class RemedySettings {
  public:
-  /// Throws InputError if the text is not a scenario.
-  explicit RemedySettings(const std::string& resolved);
+  /// `gains`: law of the scenario's controller. Throws InputError if the text is not a scenario.
+  explicit RemedySettings(const std::string& resolved, const std::vector<PositionGains>& gains = {});
+
+  /// Keys of the scenario, and name of a setting with a single key in messages.
+  [[nodiscard]] std::vector<std::string> paths(const RemedyKey& key) const;
+  [[nodiscard]] std::string name(const RemedyKey& key) const;
 
   /// Reason why the key cannot be changed: a path is missing, has only numbers 0, or is set by an entry of `at`. Empty
   /// if it can be changed.
@@ -44,6 +51,7 @@ class RemedySettings {
 
  private:
   void take_voltage();
+  void take_gain(const std::vector<PositionGains>& gains);
   [[nodiscard]] const Node* find(const std::string& path) const;
   [[nodiscard]] std::vector<double> numbers(const std::string& path) const;
   [[nodiscard]] std::string none_of(const std::string& path) const;
@@ -51,7 +59,11 @@ class RemedySettings {
   void add_scaled(const std::string& path, double factor, std::vector<std::string>& sets) const;
 
   Node root_;
+  std::string gain_;  ///< key of the position gain
 };
+
+/// Settings of a scenario. Throws PluginError.
+RemedySettings settings_of(const Scenario& scenario);
 
 /// Rounds the value of a setting to a hundredth of its change from `now` or finer: up if `up`, else down.
 double rounded_setting(double value, double now, bool up);

@@ -82,6 +82,22 @@ TEST(RemedySettings, AKeyThatChangesDuringTheRunIsLeftOut) {
   EXPECT_EQ(settings.missing(remedy_key("frequency")), "");
 }
 
+/// The position gain has the key that the controller declares.
+TEST(RemedySettings, TheGainIsThatOfTheController) {
+  const auto doubled = [](const std::string& controller) {
+    const Scenario s = scenario("gaitlab: 1\nrobot: {modules: mtran, docks: [[1, 1, 4, 0, 0]]}\nduration: 1\ncontroller: {" +
+                                controller + "}\n");
+    const RemedySettings settings = report::settings_of(s);
+    EXPECT_EQ(settings.missing(remedy_key("Kp")), "") << controller;
+    return settings.scaled(remedy_key("Kp"), 2);
+  };
+  EXPECT_EQ(doubled("type: pid, Kp: 60"), Sets{"controller.Kp=120"});
+  EXPECT_EQ(doubled("type: rc_servo, gain: 3"), Sets{"controller.gain=6"});
+  EXPECT_EQ(doubled("type: rc_servo, P: 400"), Sets{"controller.P=800"});
+  EXPECT_EQ(doubled("type: rc_servo"), Sets{"controller.gain=10"}) << "the gain that is not stated";
+  EXPECT_EQ(doubled("type: rc_servo, P: {default: 30, m1/active: 40}"), Sets{"controller.P=[60, 60, 80, 60]"});
+}
+
 TEST(RemedySettings, FrictionIsThatOfBoxesToo) {
   const RemedySettings settings(
       "ground: {friction: 0.5, boxes: [{center: [1, 2, 3], friction: 0.4, mass: 0}, {center: [0, 0, 1], friction: 0.8}]}\n");
