@@ -1,12 +1,12 @@
 // Implicit step for a scalar type T (double or lanes), after which every motor, stop and contact satisfies its law.
 #pragma once
-#include "core/laws/hinge_stop.h"
 #include "physics_articulated/contacts.h"
-#include "physics_articulated/holds.h"
+#include "physics_articulated/line_search.h"
 #include "physics_articulated/motion.h"
 #include "physics_articulated/motors.h"
 #include "physics_articulated/solo.h"
 #include "physics_articulated/sticking.h"
+#include "physics_articulated/stops.h"
 
 namespace gaitlab::articulated {
 
@@ -48,7 +48,7 @@ class Implicit {
       : body(tree, environment.gravity, environment.dynamics),
         contacts(tree, environment),
         motors(actuator, tree.lo.size(), tree.passive, tree.hinges, lanes),
-        holds(tree.lo.size()),
+        stops(tree),
         rotor(tree.lo.size(), T(0.0)),
         done(tree.lo.size()),
         tree_(tree),
@@ -59,8 +59,6 @@ class Implicit {
         now_(joints_),
         next_(joints_) {
     passive_.assign(tree.passive.size(), T(0.0));
-    hinges_ = tree.hinges;
-    for (BasicPassiveHinge<T>& hinge : hinges_) hinge.friction = T(0.0);  // `motors` has it
     for (auto* values : {&stop_, &stop_slope_, &force_, &diagonal_, &end_}) values->assign(joints_, T(0.0));
     const In inertia = actuator == nullptr ? In() : actuator->reflected_inertia();
     if (inertia.empty()) return;
@@ -72,7 +70,7 @@ class Implicit {
   /// Takes smooth laws of friction, for explicit methods.
   void creep() {
     motors.creep();
-    hinges_ = tree_.hinges;
+    stops.creep();
   }
 
   /// Advances the lanes `which` of x by a step and fills done, solves and off. `command` is constant, with index joint * lanes
@@ -98,7 +96,7 @@ class Implicit {
       if (solve == 0) {
         move(open);
       } else {
-        move(open, share(open, x, command, h));
+        move(open, falling_share<T>(open, [&](const T& share) { return climb(x, command, h, share); }));
       }
       open = math::mask_and(open, misses(x, command, h));
       if (!math::any_lane(open)) break;
@@ -112,7 +110,7 @@ class Implicit {
   /// Takes changed motors and stuck hinges: Plant::change_joints for these lanes.
   void change(In hold, In since, const LaneRange& lanes) {
     motors.take(tree_.passive, lanes);
-    holds.change(hold, since, lanes);
+    stops.holds.change(hold, since, lanes);
   }
 
   /// Takes the results of a solo's step in the lane `l`; `which` contains only this lane.
@@ -141,10 +139,10 @@ class Implicit {
     motors.begin(command, speeds(x));
     motors.linearise(command, speeds(x));
     motors.torque = motors.law;
-    for (std::size_t j = 0; j < joints_; ++j) stop_[j] = stop_law(x, j);
+    for (std::size_t j = 0; j < joints_; ++j) stop_[j] = stops.at(x, j, speeds(x)[j]);
     for (std::size_t k = 0; k < tree_.passive.size(); ++k) {
       const std::size_t j = tree_.passive[k];
-      passive_[k] = hinges_[k].spring(x[StateLayout::kAngles + j]) + hinges_[k].loss(speeds(x)[j]).torque;
+      passive_[k] = stops.hinges[k].spring(x[StateLayout::kAngles + j]) + stops.hinges[k].loss(speeds(x)[j]).torque;
       stop_[j] = stop_[j] + passive_[k];
     }
     if (!motors.any_jump) return accelerate(0);
@@ -187,7 +185,7 @@ class Implicit {
     for (std::size_t k = 0; k < tree_.passive.size(); ++k) {
       const T& w = speeds(x)[tree_.passive[k]];
       sum[2] = sum[2] + passive_[k] * w;
-      sum[3] = sum[3] - hinges_[k].loss(w).torque * w;
+      sum[3] = sum[3] - stops.hinges[k].loss(w).torque * w;
     }
     return sum;
   }
@@ -220,7 +218,7 @@ class Implicit {
   TreeBody<T> body;
   Contacts<T> contacts;
   StepMotors<T> motors;
-  Holds<T> holds;              ///< their time is set before step() and evaluate()
+  Stops<T> stops;              ///< the time of `holds` is set before step() and evaluate()
   std::vector<T> rotor;        ///< reflected inertia of each joint, kg m^2
   StepResult<T> done;          ///< result of the last step
   T solves = 0.0;              ///< number of solves of the last step
@@ -234,8 +232,6 @@ class Implicit {
     explicit Iterate(std::size_t joints) : a(6 + joints), torque(joints), stop(joints) {}
     std::vector<T> a, torque, stop;
   };
-  using Stop = StopTorque<T>;
-
   /// Sets the tangents at the speeds at the end of the last step, so that every law begins on the branch of that step.
   void start(std::span<const T> x, In command, double h) {
     const math::Mask<T> all = T(0.0) <= T(0.0);
@@ -243,7 +239,7 @@ class Implicit {
     motors.linearise(command, speeds(x));
     for (std::size_t j = 0; j < joints_; ++j) {
       motors.touch(j, all, speeds(x)[j], speeds(x)[j]);
-      const Stop s = stopped(x, j, speeds(x)[j], h);
+      const StopTorque<T> s = stops.both_at_end(x, j, speeds(x)[j], h);
       stop_[j] = s.torque;
       stop_slope_[j] = s.slope;
     }
@@ -294,35 +290,9 @@ class Implicit {
       const T d = T(h) * (next_.a[6 + j] - now_.a[6 + j]);
       const T held = now_.torque[j] + now_.stop[j] + share * (next_.torque[j] + next_.stop[j] - now_.torque[j] - now_.stop[j]);
       const T motor = motors.any_jump ? math::select(motors.sticks[j], next_.torque[j], motors.law[j]) : motors.law[j];
-      sum = sum + d * (held - motor - stopped(x, j, end_[j], h).torque);
+      sum = sum + d * (held - motor - stops.both_at_end(x, j, end_[j], h).torque);
     }
     return sum;
-  }
-
-  /// Share of the way from the iterate to the last solve. It is 1 if phi falls up to that solution. Otherwise it is the
-  /// share at which the slope of phi is 0, to 1 % of the slope at the start of the way (regula falsi, every third time a
-  /// bisection).
-  T share(const math::Mask<T>& which, std::span<const T> x, In command, double h) {
-    using math::select;
-    const T zero = 0.0, one = 1.0;
-    T hi = one, f_hi = climb(x, command, h, one);
-    auto open = math::mask_and(which, f_hi > zero);
-    if (!math::any_lane(open)) return one;
-    const T start = climb(x, command, h, zero);
-    open = math::mask_and(open, start < zero);
-    T lo = zero, f_lo = start, result = one;
-    for (int i = 0; i < 40 && math::any_lane(open); ++i) {
-      const T a = i % 3 == 2 ? 0.5 * (lo + hi) : lo + (hi - lo) * f_lo / select(open, f_lo - f_hi, one);
-      const T f = climb(x, command, h, a);
-      result = select(open, a, result);
-      open = math::mask_and(open, math::abs(f) > -0.01 * start);
-      const auto below = f < zero;
-      lo = select(below, a, lo);
-      f_lo = select(below, f, f_lo);
-      hi = select(below, hi, a);
-      f_hi = select(below, f_hi, f);
-    }
-    return result;
   }
 
   /// Lanes where the law of a motor, end stop or contact, at the end speeds of the iterate, differs from the force in the
@@ -339,7 +309,7 @@ class Implicit {
         motor = math::mask_or(math::fresh(motor, motors.sticks[j]), sticking_.contradicts(j, now_.torque, end_));
       // The rounding error of the torque of a passive spring may exceed the tolerance of a stop.
       const T allowed = tree_.passive.empty() ? T(kStopTolerance) : T(kStopTolerance) + T(kRounding) * math::abs(now_.stop[j]);
-      const auto stop = math::abs(stopped(x, j, end_[j], h).torque - now_.stop[j]) > allowed;
+      const auto stop = math::abs(stops.both_at_end(x, j, end_[j], h).torque - now_.stop[j]) > allowed;
       const auto joint = math::mask_or(motor, stop);
       missed_ = missed_ + math::select(joint, T(1.0), T(0.0));
       any = math::mask_or(any, joint);
@@ -353,50 +323,11 @@ class Implicit {
     using math::select;
     for (std::size_t j = 0; j < joints_; ++j) {
       motors.touch(j, which, speeds(x)[j], end_[j]);
-      const Stop s = stopped(x, j, end_[j], h);
+      const StopTorque<T> s = stops.both_at_end(x, j, end_[j], h);
       stop_slope_[j] = select(which, s.slope, stop_slope_[j]);
       stop_[j] = select(which, s.torque + s.slope * (end_[j] - speeds(x)[j]), stop_[j]);
     }
     contacts.touch(which, h);
-  }
-
-  /// Torque of stop and passive hinge together if a step h ends with the speed qd.
-  Stop stopped(std::span<const T> x, std::size_t j, const T& qd, double h) const {
-    Stop both = stop_at_end(x, j, qd, h);
-    for (std::size_t k = 0; k < tree_.passive.size(); ++k) {
-      if (tree_.passive[k] != j) continue;
-      const BasicPassiveHinge<T>& hinge = hinges_[k];
-      const auto loss = hinge.loss(qd);
-      both.torque = both.torque + hinge.spring(x[StateLayout::kAngles + j] + T(h) * qd) + loss.torque;
-      both.slope = both.slope + loss.slope + T(h) * hinge.stiffness;
-    }
-    return both;
-  }
-
-  /// Torque of a stop if a step h ends with the speed qd: -ks (q + h qd - q_lim) - cs qd, or 0 if the stop would pull. If the
-  /// joint starts within its range, the damping torque is -cs (q + h qd - q_lim) / h, the mean over the step. The damping
-  /// torque at the end of the step would jump.
-  Stop stop_at_end(std::span<const T> x, std::size_t j, const T& qd, double h) const {
-    using math::select;
-    const T& q = x[StateLayout::kAngles + j];
-    const T &lo = tree_.lo[j], &hi = tree_.hi[j], zero = 0.0;
-    constexpr double k = BasicHingeStop<T>::kStiffness;
-    constexpr double c = BasicHingeStop<T>::kDamping;
-    const auto up = q > 0.5 * (lo + hi);
-    const T excess = q - select(up, hi, lo);
-    const auto within = math::mask_and(q <= hi, q >= lo);
-    const T end = excess + h * qd;
-    const T torque = -k * end - c * select(within, (1 / h) * end, qd);
-    const auto acts = math::mask_or(math::mask_and(up, torque < zero), math::fresh(torque > zero, up));
-    const Stop own{select(acts, torque, zero), select(acts, T(c + h * k), zero)};
-    return holds.any() ? holds.instead_of(own, j, q, qd, h) : own;
-  }
-
-  /// Torque of a stop or of a stuck hinge.
-  [[nodiscard]] T stop_law(std::span<const T> x, std::size_t j) const {
-    const T &q = x[StateLayout::kAngles + j], &qd = speeds(x)[j];
-    const T own = BasicHingeStop<T>::at(q, qd, tree_.lo[j], tree_.hi[j]).torque;
-    return holds.any() ? holds.instead_of({own, T(0.0)}, j, q, qd, 0).torque : own;
   }
 
   /// Writes the iterate into the state. Works use the mean of the velocities at start and end of the step.
@@ -437,8 +368,8 @@ class Implicit {
   void finish_hinge(std::size_t k, std::span<const T> x, double h) {
     const std::size_t j = tree_.passive[k];
     const T end = speeds(x)[j] + T(h) * now_.a[6 + j];
-    const T stop = stop_at_end(x, j, end, h).torque;
-    const T spring = hinges_[k].spring(x[StateLayout::kAngles + j] + T(h) * end);
+    const T stop = stops.at_end(x, j, end, h).torque;
+    const T spring = stops.hinges[k].spring(x[StateLayout::kAngles + j] + T(h) * end);
     const T lost = now_.stop[j] - stop - spring + (motors.any_jump ? now_.torque[j] : T(0.0));
     done.hinges = done.hinges - T(h) * lost * (speeds(x)[j] + T(0.5) * T(h) * now_.a[6 + j]);
     now_.stop[j] = stop;
@@ -448,8 +379,7 @@ class Implicit {
 
   const Tree<T>& tree_;
   std::size_t joints_;
-  std::vector<T> passive_;                    ///< torques of passive hinges, set by evaluate()
-  std::vector<BasicPassiveHinge<T>> hinges_;  ///< laws of passive hinges, without dry friction unless it creeps
+  std::vector<T> passive_;  ///< torques of passive hinges, set by evaluate()
   std::vector<T> place_, stop_, stop_slope_, force_, diagonal_, end_;
   Sticking<T> sticking_;
   std::vector<math::Mask<T>> rests_;  ///< joints at rest in add_friction()

@@ -33,7 +33,7 @@ class LaneKernel final : public Kernel {
   void change(In hold, In since) override { stepper_.implicit.change(hold, since, {0, math::kLanes<T>}); }
   void add_friction(In state, In command, double within, Out torque) override {
     load(state);
-    stepper_.implicit.holds.at(within);
+    stepper_.implicit.stops.holds.at(within);
     stepper_.implicit.add_friction(x_, command, torque);
   }
   [[nodiscard]] History history() const override { return stepper_.layout; }

@@ -150,7 +150,7 @@ class Stepper {
     if (alone < math::kLanes<T>) {
       step_alone(alone, x, command, h, at + h, which);
     } else {
-      implicit.holds.at(at + h);
+      implicit.stops.holds.at(at + h);
       implicit.step(x, command, h, which);
       apart_ = math::fresh(apart_, which);
     }
@@ -364,7 +364,7 @@ class Stepper {
     std::ranges::copy(implicit.speeds(x), part.speed.begin());
     std::copy_n(x.begin() + StateLayout::kAngles, joints_, part.angle.begin());
     for (std::size_t i = 0; i < 4; ++i) {
-      implicit.holds.at(i == 0 ? 0 : kReach[i - 1] * h);
+      implicit.stops.holds.at(i == 0 ? 0 : kReach[i - 1] * h);
       derive(stage_, command, rate_);
       const auto [normal, along, on_stops, on_hinges] = implicit.powers(stage_);
       part.contact = part.contact + kWeight[i] * h * normal;
@@ -382,7 +382,7 @@ class Stepper {
   }
 
   StepMethod method_;
-  std::size_t joints_;
+  std::size_t joints_, used_ = 0;
   Agreement<T> agreement_;
   std::vector<T> history_, sum_, stage_, rate_;
   LostSpeeds<T> lost_;
@@ -395,7 +395,6 @@ class Stepper {
   math::Mask<T> slide_{};  ///< lanes of apart_ in which most of the load slides
   std::vector<std::vector<T>> halved_;
   std::vector<StepPart<T>> parts_;
-  std::size_t used_ = 0;
 };
 
 }  // namespace gaitlab::articulated
