@@ -109,6 +109,8 @@ std::string left_out(const Scenario& s) {
   }
   if (s.cpg.entry != nullptr) out += fmt::format(" Gait: cpg {}.", name(s.cpg));
   if (!s.sensors.empty()) out += " Sensors: errors and delays, currents, loads and tilt; in URDF, all sensors.";
+  for (const std::size_t j : joints_with_play(*s.robot))
+    out += fmt::format(" Play of the gear of {}: {} rad.", s.robot->joints[j].name, number_text(s.robot->joints[j].play.width));
   return out + fmt::format(" Hinge stops: a spring of {} N m/rad and a damper of {} N m s/rad outside the range.",
                            number_text(HingeStop::kStiffness), number_text(HingeStop::kDamping));
 }

@@ -13,7 +13,7 @@ class LaneKernel final : public Kernel {
       : tree_(trees(s.rollouts)),
         environment_(environment<T>(s)),
         stepper_(tree_, environment_, s.actuator, s.method, accuracy(s), s.solos),
-        x_(StateLayout::kAngles + 2 * tree_.lo.size()) {
+        x_(StateLayout::kAngles + 2 * (tree_.lo.size() + tree_.plays.size())) {
     contact_forces_.reserve(tree_.points.size());
     parts_.reserve(stepper_.most_parts());
     forces_.reserve(tree_.points.size());

@@ -72,6 +72,12 @@ std::string spring_of(const Passive& p) {
   return text;
 }
 
+std::string drive_of(const HingeType& hinge) {
+  if (hinge.passive) return spring_of(*hinge.passive);
+  if (!hinge.play.any()) return "";
+  return fmt::format("play {:.4g} rad{}", hinge.play.width, hinge.play.encoder_at_motor ? ", encoder at the motor" : "");
+}
+
 /// Motors of a module type. Empty if the type names no actuator, because the scenario's default actuator is not that of the
 /// module.
 Motors motors_of(const Scenario& one) {
@@ -90,8 +96,7 @@ std::string hinges(const Robot& robot, const Motors& known) {
     const bool asked = robot.joints[j].driven() && !known.of_joint.empty();
     const Envelope motor = asked ? known.joint(j) : Envelope();
     rows.push_back({name, direction(hinge.in_parent.R * hinge.axis), range_of(hinge), quantity(motor.rest, "N m"),
-                    quantity(motor.no_load, "rad/s"), quantity(motor.continuous, "A"),
-                    hinge.passive ? spring_of(*hinge.passive) : ""});
+                    quantity(motor.no_load, "rad/s"), quantity(motor.continuous, "A"), drive_of(hinge)});
   }
   return rows.size() > 1 ? aligned(rows) : "  no hinges\n";
 }

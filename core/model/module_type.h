@@ -11,6 +11,7 @@
 #include "core/model/body_pairs.h"
 #include "core/model/frames.h"
 #include "core/model/passive.h"
+#include "core/model/play.h"
 #include "core/names.h"
 
 namespace gaitlab {
@@ -50,6 +51,7 @@ struct HingeType {
   Vec3 axis = Vec3::UnitY();            ///< unit vector, hinge frame
   double lo = 0, hi = 0;                ///< rad; -kNoStop and kNoStop if the hinge turns freely
   std::optional<Passive> passive = {};  ///< set for `drive: none`; empty if a motor drives the hinge
+  Play play = {};                       ///< of the gear of its motor
 };
 
 /// Gender of a face. An active face docks on a passive face. A face without gender (none) docks on another face without gender.

@@ -347,7 +347,8 @@ class ScenarioReader {
     attempt([&] {
       ScenarioChecks checks(root_, scenario_, catalog_, problems_);
       if (actuator && controller) checks.units(*actuator, *controller);
-      if (actuator) checks.rotors(*actuator);
+      const bool turns = !sections.actuator.sound || as_ == ReadAs::module_type || checks.play(actuator.get());
+      if (actuator && turns) checks.rotors(*actuator);
       if (sections.actuator.sound) {
         checks.built_numbers(actuator.get());
         checks.supply(actuator.get());

@@ -103,6 +103,7 @@ void Probes::add_vector(const std::string& name, const std::string& unit, const 
 }
 
 void Probes::add_joints(const Robot& robot, bool motors, std::string_view command_unit, bool faults, bool friction) {
+  std::size_t plays = 0;
   for (std::size_t j = 0; j < robot.joints.size(); ++j) {
     const std::string of = " of joint " + robot.joints[j].name;
     const bool driven = motors && robot.joints[j].driven();
@@ -113,11 +114,18 @@ void Probes::add_joints(const Robot& robot, bool motors, std::string_view comman
     if (driven) joint("setpoint", "rad", "set point in force just before t", &Sample::setpoint);
     add(fmt::format("joint.{}.angle", j), "rad", "angle" + of, sample_.state.q[j]);
     add(fmt::format("joint.{}.speed", j), "rad/s", "speed" + of, sample_.state.qd[j]);
+    if (driven && robot.joints[j].play.any()) {
+      const std::size_t play = plays++;
+      add(fmt::format("joint.{}.motor_angle", j), "rad", "angle of the motor, geared," + of, sample_.state.rotor[play]);
+      add(fmt::format("joint.{}.motor_speed", j), "rad/s", "speed of the motor, geared," + of, sample_.state.rotor_speed[play]);
+    }
     if (driven) {
       joint("voltage_command", command_unit, "controller output before clamping, in force just before t", &Sample::command);
       joint("voltage", "V", "terminal voltage of the motor", &Sample::voltage);
       joint("current", "A", "current of the motor", &Sample::current);
       joint("torque", "N m", "motor torque on the joint, positive along the axis,", &Sample::torque);
+      if (robot.joints[j].play.any())
+        joint("gear_torque", "N m", "torque of the gear on the link, positive along the axis,", &Sample::gear_torque);
       if (friction) joint("friction", "N m", "part of this torque that friction gives,", &Sample::friction);
     }
     if (!robot.joints[j].driven()) {

@@ -22,7 +22,7 @@ struct Sample {
   void set_boxes(const Ground& ground);         ///< places the boxes at their start
   /// Reads the motion of the ground boxes from `plant`. The signs of their quaternions are continuous in time.
   void place_boxes(const Plant& plant);
-  /// Fills the torques of stops and passive hinges from the state. `passive` lists the joints without a motor.
+  /// Fills the torques of stops, gears with play and passive hinges from the state. `passive` lists the joints without a motor.
   void compute_hinges(const Robot& robot, const std::vector<std::size_t>& passive);
   /// Kinetic and potential energy, including the energy of rotors and of springs of passive hinges, J.
   [[nodiscard]] double energy(const Robot& robot, const Rotors& rotors, const std::vector<std::size_t>& passive) const;
@@ -36,6 +36,7 @@ struct Sample {
   Sums sums;
   Vec3 gravity = Vec3::Zero();
   std::vector<double> setpoint, command, voltage, current, saturation, torque, friction, stop_torque, passive_torque;
+  std::vector<double> gear_torque;  ///< of gears with play, on the links; 0 for other joints
   bool sticks = false;              ///< true if `friction` of passive hinges is set-valued, and part of passive_torque
   std::vector<double> fault, hold;  ///< per joint: number of its fault; its angle if it is stuck, rad, else NaN
   std::vector<double> stuck_for;    ///< time that each joint has been stuck, s, as in Plant::change_joints
@@ -51,6 +52,7 @@ struct Sample {
       reactions;  ///< at hinges, docks and base under motors, stops, passive hinges and contacts; see compute_reactions()
 
  private:
+  std::vector<std::size_t> plays_;  ///< joints with play
   Acceleration acceleration_;
   std::vector<double> applied_;
   std::vector<BodyWrench> ground_;

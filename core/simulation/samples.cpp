@@ -58,7 +58,7 @@ Sample& Simulation::take_sample(Lane& lane, bool places) {
 
 /// Computes motor quantities and contacts as left limits, under the command in force.
 void Simulation::observe() {
-  evaluate_motors(plant_state_.subspan(layout_.speeds(), command_.size()));
+  evaluate_motors(motor_speeds());
   evaluate_torques(within_);
   plant_->update_contacts();
 }

@@ -17,7 +17,9 @@ namespace gaitlab {
 
 bool can_share(const Scenario& a, const Scenario& b) {
   const auto same_link = [](const Link& x, const Link& y) { return x.parent == y.parent && x.joint == y.joint; };
-  const auto same_drive = [](const Joint& x, const Joint& y) { return x.driven() == y.driven(); };
+  const auto same_drive = [](const Joint& x, const Joint& y) {
+    return x.driven() == y.driven() && x.play.any() == y.play.any();
+  };
   const auto same_place = [](const ContactElement& x, const ContactElement& y) { return x.link == y.link; };
   const auto elements = [](const Scenario& s) { return contact_elements(*s.robot, s.contact.on); };
   return estimated_by_rollouts(a) == estimated_by_rollouts(b) && a.physics.engine == b.physics.engine &&
@@ -37,7 +39,8 @@ Simulation::Simulation(std::span<const Scenario> lanes, Records records, Role ro
       records_(records),
       role_(role),
       h_(scenarios_.at(0).physics.step),
-      layout_{scenarios_[0].robot->joints.size(), scenarios_.size()},
+      plays_(joints_with_play(*scenarios_[0].robot)),
+      layout_{scenarios_[0].robot->joints.size(), scenarios_.size(), plays_.size()},
       first_(layout_, recorded_),
       meter_(std::span(scenarios_).first(recorded_)) {
   std::vector<const Scenario*> all;
@@ -68,6 +71,7 @@ Simulation::Simulation(std::span<const Scenario> lanes, Records records, Role ro
   for (const auto& lane : lanes_) {
     for (const std::size_t j : lane->passive) rubs_ = rubs_ || lane->robot.joints[j].passive->friction > 0;
   }
+  if (!plays_.empty()) motor_speed_.assign(layout_.joints * lanes_.size(), 0.0);
   available_.assign(layout_.joints * lanes_.size(), 0.0);
   largest_.assign(layout_.joints * recorded_, 0.0);
   numbers_.assign(state_size(), 0.0);

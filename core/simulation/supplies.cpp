@@ -20,7 +20,8 @@ void Simulation::make_supplies() {
 void Simulation::supply(Lane& lane) {
   if (!bounded_) return;
   const std::size_t lanes = lanes_.size();
-  for (std::size_t j = 0; j < layout_.joints; ++j) lane.speed_now[j] = plant_state_[layout_.speeds() + j * lanes + lane.index];
+  const In speeds = motor_speeds();
+  for (std::size_t j = 0; j < layout_.joints; ++j) lane.speed_now[j] = speeds[j * lanes + lane.index];
   std::fill(lane.bound.begin(), lane.bound.end(), std::numeric_limits<double>::infinity());
   lane.supply.apply(lane.changes.segment(), lane.speed_now, lane.command, lane.bound);
   for (std::size_t j = 0; j < layout_.joints; ++j) {
