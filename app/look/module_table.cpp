@@ -78,6 +78,12 @@ std::string drive_of(const HingeType& hinge) {
   return fmt::format("play {:.4g} rad{}", hinge.play.width, hinge.play.encoder_at_motor ? ", encoder at the motor" : "");
 }
 
+std::string battery(const Supply& supply) {
+  if (!supply.any()) return "";
+  return fmt::format("battery: {:.4g} V, {:.4g} ohm, {}, {}\n", supply.voltage, supply.resistance, stated(supply.current, "A"),
+                     stated(supply.capacity, "A h"));
+}
+
 /// Motors of a module type. Empty if the type names no actuator, because the scenario's default actuator is not that of the
 /// module.
 Motors motors_of(const Scenario& one) {
@@ -188,11 +194,11 @@ std::string module_table(const Scenario& one) {
   const ModuleType& type = robot.types[0];
   std::string sources;
   if (!one.module_documents->empty()) add_sources(one.module_documents->front(), "", sources);
-  return fmt::format("{}: {}, {:.4g} kg in {}, {} and {}\n\n{}\n{}\n{}{}{}", type.name, size_text(robot), mass_of(type),
+  return fmt::format("{}: {}, {:.4g} kg in {}, {} and {}\n\n{}\n{}{}\n{}{}{}", type.name, size_text(robot), mass_of(type),
                      type.bodies.size() == 1 ? "1 body" : fmt::format("{} bodies", type.bodies.size()),
                      counted(type.hinges.size(), "hinge"), counted(type.faces.size(), "face"), bodies(type),
-                     hinges(robot, motors_of(one)), faces(type), type.connectors.empty() ? "" : "\n" + connectors(type),
-                     sources.empty() ? "" : "\nsources\n" + sources);
+                     hinges(robot, motors_of(one)), battery(type.battery), faces(type),
+                     type.connectors.empty() ? "" : "\n" + connectors(type), sources.empty() ? "" : "\nsources\n" + sources);
 }
 
 }  // namespace gaitlab::app

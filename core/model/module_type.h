@@ -12,6 +12,7 @@
 #include "core/model/frames.h"
 #include "core/model/passive.h"
 #include "core/model/play.h"
+#include "core/model/supply.h"
 #include "core/names.h"
 
 namespace gaitlab {
@@ -97,6 +98,7 @@ struct ModuleType {
   std::map<std::string, Connector> connectors = {};  ///< connectors of the faces with known loads, by name
   std::vector<ContactType> feet, all;                ///< feet: used for `on: feet` if on a free body; all: used for `on: all`
   std::vector<BodyPair> may_overlap = {};            ///< bodies that are not compared for collisions
+  Battery battery = {};                              ///< of the motors of each module; voltage 0 without one
   std::size_t root = 0;                              ///< body that is not the child of a hinge; its frame is the module frame
 };
 

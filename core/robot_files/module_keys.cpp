@@ -144,6 +144,8 @@ void ModuleKeys::fields(Fields& f) {
   f.other(kMayOverlap, kPairs,
           "Pairs [BODY, BODY] that the check collision leaves out, by names or patterns; for other pairs, the overlap with all "
           "hinges at 0 is by design.");
+  f.group("battery", battery,
+          "Battery of the motors of each module of this type, which then do not use the scenario's supply.");
   optional(f).other("actuator", kPluginMap,
                     "Motor of every driven hinge: type, and keys of that actuator (gaitlab explain actuator TYPE).");
   optional(f).other("controller", kPluginMap,

@@ -75,6 +75,7 @@ struct ModuleKeys {
   std::vector<FaceKeys> faces;
   ContactsKeys contacts;
   std::vector<ConnectorKeys> connectors;
+  Battery battery;
   void fields(Fields& f);
 };
 

@@ -163,6 +163,10 @@ class ScenarioReader {
       scenario_.on_ground = !height;
     }
     scenario_.robot = std::move(parts.robot);
+    const auto battery = [&](const Module& module) { return scenario_.robot->types[module.type].battery; };
+    if (scenario_.robot &&
+        std::ranges::any_of(scenario_.robot->types, [](const ModuleType& type) { return type.battery.any(); }))
+      std::ranges::transform(scenario_.robot->modules, std::back_inserter(scenario_.batteries), battery);
     scenario_.module_documents = std::make_shared<const std::vector<Node>>(std::move(parts.documents));
     if (!scenario_.robot) return;
     joints_ = std::make_shared<const std::vector<std::string>>(joint_names(*scenario_.robot));

@@ -235,11 +235,16 @@ void ScenarioChecks::units(const Actuator& actuator, const Controller& controlle
 }
 
 void ScenarioChecks::supply(const Actuator* actuator) {
-  if (!scenario_.supply.any() || (actuator != nullptr && actuator->dc_motors() != nullptr)) return;
+  if (actuator != nullptr && actuator->dc_motors() != nullptr) return;
   const std::string instead =
       actuator == nullptr ? "the robot has no motors"
                           : fmt::format("actuator '{}' takes {}", scenario_.actuator.entry->name, actuator->command_unit());
-  problems_.add(place_of(root_, kSupplySection, "voltage"), "supply needs motors that take V, but " + instead);
+  if (scenario_.supply.any())
+    problems_.add(place_of(root_, kSupplySection, "voltage"), "supply needs motors that take V, but " + instead);
+  for (const Node& document : *scenario_.module_documents) {
+    const Node* const battery = document.find("battery");
+    if (battery != nullptr) problems_.add(battery->place, "battery needs motors that take V, but " + instead);
+  }
 }
 
 SourceLocation ScenarioChecks::play_place(std::size_t joint) const {

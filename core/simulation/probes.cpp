@@ -7,6 +7,7 @@
 #include "core/model/pattern.h"
 #include "core/plugin/plugin_instance.h"
 #include "core/plugin/robot_info.h"
+#include "core/scenario/buses.h"
 #include "core/scenario/sections.h"
 #include "core/scenario/sensor_section.h"
 #include "core/settings/joint_patterns.h"
@@ -50,9 +51,13 @@ void Probes::add_all(const Scenario& scenario, const std::vector<ContactElement>
   const bool motors = scenario.actuator.entry != nullptr;
   const bool friction = motors && !make_actuator(scenario.actuator, info(robot))->friction().empty();
   add_joints(robot, motors, command_unit, std::ranges::any_of(scenario.changes, faults), friction);
-  if (scenario.supply.any()) {
-    add("supply.voltage", "V", "voltage of the bus, in force just before t", sample_.bus_voltage);
-    add("supply.current", "A", "current of the supply at the control tick that set this voltage", sample_.bus_current);
+  const std::vector<MotorBus> all = buses(scenario);
+  for (std::size_t b = 0; b < all.size(); ++b) {
+    const std::string of = all[b].module.empty() ? "" : " of module " + all[b].module;
+    add(all[b].name() + ".voltage", "V", "voltage of the bus" + of + ", in force just before t", sample_.bus_voltage[b]);
+    add(all[b].name() + ".current", "A",
+        (of.empty() ? "current of the supply" : "current of the battery" + of) + " at the control tick that set this voltage",
+        sample_.bus_current[b]);
   }
   add_base();
   add_vector("com", "m", "centre of mass, world axes", [](const Sample& s) { return s.sums.com; });

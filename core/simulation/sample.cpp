@@ -23,6 +23,7 @@ Sample::Sample(const Robot& robot, std::size_t contacts_count, std::size_t cpg_s
   plays_ = joints_with_play(robot);
   state.rotor.assign(plays_.size(), 0.0);
   state.rotor_speed = state.rotor;
+  for (auto* values : {&bus_voltage, &bus_current}) values->assign(robot.modules.size() + 1, 0.0);
   hold.assign(robot.joints.size(), NAN);
   ground_.reserve(contacts_count);
 }

@@ -41,7 +41,7 @@ struct Sample {
   std::vector<double> fault, hold;  ///< per joint: number of its fault; its angle if it is stuck, rad, else NaN
   std::vector<double> stuck_for;    ///< time that each joint has been stuck, s, as in Plant::change_joints
   double segment = 0;
-  double bus_voltage = 0, bus_current = 0;  ///< V, A; of a scenario with a supply
+  std::vector<double> bus_voltage, bus_current;  ///< V, A; of each bus (buses()), with room for one of each module and one more
   std::vector<ContactSample> contacts;
   std::vector<BoxMotion> boxes;  ///< one per box of the ground; empty if none can move
   std::vector<double> cpg;

@@ -117,7 +117,7 @@ std::vector<std::size_t> Simulation::rated_gears(const Lane& lane) const {
 /// Number of changing values of this simulation, without the values of separate companions.
 std::size_t Simulation::state_size() const {
   std::size_t size = 1 + layout_.size() + plant_->history() + 2 * layout_.joints * lanes_.size();
-  if (bounded_) size += 2 * (layout_.joints + 1) * lanes_.size();
+  if (bounded_) size += 2 * (layout_.joints + buses_) * lanes_.size();
   for (const auto& lane : lanes_) {
     size += lane->sample.cpg.size() + (lane->controller == nullptr ? 0 : lane->controller->states()) + Ledger::kSums;
     size += lane->sensors.states() + lane->changes.states();
@@ -145,7 +145,7 @@ void Simulation::cut_state(Out numbers) {
   if (bounded_) {
     bound_ = cut(joints);
     within_bound_ = cut(joints);
-    bus_ = cut(2 * lanes_.size());
+    bus_ = cut(2 * buses_ * lanes_.size());
   }
   for (const auto& lane : lanes_) {
     lane->cpg_state = cut(lane->sample.cpg.size());
@@ -202,8 +202,11 @@ void Simulation::place_at_start(Lane& lane) {
     bound_[j * lanes_.size() + lane.index] = std::numeric_limits<double>::infinity();
     within_bound_[j * lanes_.size() + lane.index] = 0;
   }
-  bus_[2 * lane.index] = lane.supply.open_circuit();
-  bus_[2 * lane.index + 1] = 0;
+  for (std::size_t b = 0; b < lane.supply.buses(); ++b) {
+    const std::size_t at = 2 * (b * lanes_.size() + lane.index);
+    bus_[at] = lane.supply.open_circuit(b);
+    bus_[at + 1] = 0;
+  }
 }
 
 void Simulation::check_standing() {

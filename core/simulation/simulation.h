@@ -170,11 +170,12 @@ class Simulation {
   std::unique_ptr<StepError> step_error_;                 ///< nullptr without an estimate
   Out plant_state_, plant_history_, setpoint_, command_;  ///< parts of state_; the last two by joint * lanes + lane
   /// Parts of state_, empty without a supply or duties: bounds of the commands, and the commands within these bounds, by
-  /// joint * lanes + lane, and voltage and current of the bus by lane.
+  /// joint * lanes + lane, and voltage and current by bus * lanes + lane.
   Out bound_, within_bound_, bus_;
   std::vector<double> voltage_, current_, saturation_, power_in_, copper_, gear_, torque_, slope_, friction_, dry_, available_,
       largest_;                               ///< scratch by joint * lanes + lane; largest_ has the recorded lanes only
   std::vector<double> motor_speed_;           ///< result of motor_speeds(); empty without play
+  std::size_t buses_ = 1;                     ///< largest number of buses of a lane
   bool bounded_ = false;                      ///< true if a lane has a supply, or a controller that commands duties
   bool rubs_ = false;                         ///< true if a joint has friction, or a gear whose torque jumps at rest
   FirstLanes first_;                          ///< entries of the recorded lanes

@@ -13,6 +13,7 @@ void Simulation::make_supplies() {
     if (lane->controller == nullptr) continue;
     lane->supply = LaneSupply(lane->scenario, lane->changes, actuator_->dc_motors(), lane->index, lanes_.size());
     bounded_ = bounded_ || lane->supply.any();
+    buses_ = std::max(buses_, lane->supply.buses());
   }
 }
 
@@ -30,10 +31,13 @@ void Simulation::supply(Lane& lane) {
     bound_[i] = lane.bound[j];
     within_bound_[i] = std::clamp(command_[i], -bound_[i], bound_[i]);
   }
-  const BusState& bus = lane.supply.state();
-  bus_[2 * lane.index] = bus.voltage;
-  bus_[2 * lane.index + 1] = bus.current;
-  if (recorded(lane)) lane.recorder->add_bus(bus);
+  for (std::size_t b = 0; b < lane.supply.buses(); ++b) {
+    const BusState& bus = lane.supply.states()[b];
+    const std::size_t at = 2 * (b * lanes + lane.index);
+    bus_[at] = bus.voltage;
+    bus_[at + 1] = bus.current;
+  }
+  if (recorded(lane)) lane.recorder->add_buses(lane.supply.states());
 }
 
 }  // namespace gaitlab

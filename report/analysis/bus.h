@@ -13,7 +13,8 @@ struct BusUse {
   bool held = true;                                       ///< false if no voltage satisfied the law of the bus at some tick
 };
 
-/// From row `first` of Recording::supply to its end; nothing if the run has no supply, or if a number is not finite.
-std::optional<BusUse> bus_use(const Recording& record, std::size_t first);
+/// The bus with this number (buses()), from row `first` of Recording::supply to its end; nothing if the run has no such bus, or
+/// if a number is not finite.
+std::optional<BusUse> bus_use(const Recording& record, std::size_t bus, std::size_t first);
 
 }  // namespace gaitlab::report

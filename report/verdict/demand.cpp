@@ -9,6 +9,7 @@
 
 #include "core/plugin/plugin_instance.h"
 #include "core/scenario/built_robot.h"
+#include "core/scenario/buses.h"
 #include "core/scenario/change_section.h"
 #include "core/simulation/simulation.h"
 #include "report/analysis/fall.h"
@@ -71,12 +72,14 @@ std::string lack(const Scenario& scenario, const std::vector<JudgedJoint>& own, 
 
 /// Keeps the voltage of a duty, and takes away the supply, before the limits are raised.
 void fix_duty(Scenario& scenario) {
-  const std::size_t joints = scenario.robot->joints.size();
   const std::unique_ptr<Actuator> actuator = make_motors(scenario);
   const In limit = actuator->command_limit();
   scenario.duty_volts.assign(limit.begin(), limit.end());
-  if (scenario.supply.any()) scenario.duty_volts.assign(joints, scenario.supply.voltage);
+  for (std::size_t j = 0; j < scenario.duty_volts.size(); ++j) {
+    if (const Supply& supply = supply_of(scenario, j); supply.any()) scenario.duty_volts[j] = supply.voltage;
+  }
   scenario.supply = {};
+  scenario.batteries.clear();
 }
 
 }  // namespace
