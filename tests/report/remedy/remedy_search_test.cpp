@@ -105,31 +105,32 @@ Remedy search(const Rule& rule, const Sets& by, const std::string& engine = "art
 }
 
 /// Factors of a setting between which the verdict is that of the run.
-struct Ends {
+struct Thresholds {
   const char *name, *path;
   double down, up;
 };
 
 /// Thresholds of six settings, on either side of the factors that every search tries (up: 1.26, 1.99, 3.16, 5).
-const std::vector<Ends> kEnds{{"frequency", "cpg.frequency", 0.95, 1.06}, {"amplitude", "cpg.amplitude", 0.6, 1.7},
-                              {"u_max", "actuator.u_max", 0.34, 2.63},    {"i_max", "actuator.i_max", 0.21, 4.9},
-                              {"Kp", "controller.Kp", 0.81, 3.3},         {"friction", "ground.friction", 0.45, 1.31}};
+const std::vector<Thresholds> kThresholds{
+    {"frequency", "cpg.frequency", 0.95, 1.06}, {"amplitude", "cpg.amplitude", 0.6, 1.7},
+    {"u_max", "actuator.u_max", 0.34, 2.63},    {"i_max", "actuator.i_max", 0.21, 4.9},
+    {"Kp", "controller.Kp", 0.81, 3.3},         {"friction", "ground.friction", 0.45, 1.31}};
 
-Sets names() {
+Sets threshold_names() {
   Sets all;
-  for (const Ends& one : kEnds) all.emplace_back(one.name);
+  for (const Thresholds& one : kThresholds) all.emplace_back(one.name);
   return all;
 }
 
 bool within_all(const Tried& change) {
-  return std::ranges::all_of(kEnds, [&](const Ends& one) {
+  return std::ranges::all_of(kThresholds, [&](const Thresholds& one) {
     const double factor = change(one.path);
     return one.down < factor && factor < one.up;
   });
 }
 
-const Ends& ends_of(const RemedyAnswer& answer) {
-  return *std::ranges::find_if(kEnds, [&](const Ends& one) { return std::string(one.name) == answer.key->name; });
+const Thresholds& thresholds_of(const RemedyAnswer& answer) {
+  return *std::ranges::find_if(kThresholds, [&](const Thresholds& one) { return std::string(one.name) == answer.key->name; });
 }
 
 // The last bracket is as wide as 2 % of the change or 1e-3, and the value is rounded by at most a hundredth of the change.
@@ -137,25 +138,25 @@ constexpr double kBracket = 0.02, kNarrowest = 1e-3, kRounded = 0.01;
 
 TEST(RemedySearch, FindsTheNearestFeasibleValueToTwoPercentOfTheChange) {
   const Rule rule = [](const Tried& change) { return feasible_if(!within_all(change)); };
-  const Remedy made = search(rule, names());
-  ASSERT_EQ(made.answers.size(), 2 * kEnds.size());
+  const Remedy made = search(rule, threshold_names());
+  ASSERT_EQ(made.answers.size(), 2 * kThresholds.size());
   for (const RemedyAnswer& answer : made.answers) {
-    const double end = answer.up ? ends_of(answer).up : ends_of(answer).down;
+    const double end = answer.up ? thresholds_of(answer).up : thresholds_of(answer).down;
     const std::string what = fmt::format("{} at {}: {}", answer.key->name, end, answer.factor);
     EXPECT_TRUE(answer.crosses && answer.confirmed) << what;
     EXPECT_GE((answer.factor - end) * (answer.up ? 1 : -1), -1e-9) << what << " is infeasible";
     EXPECT_LE(std::abs(answer.factor - 1), (std::abs(end - 1) / (1 - kBracket) + kNarrowest) * (1 + kRounded)) << what;
     EXPECT_NEAR(answer.until, answer.up ? 5 : 0.2, 1e-9) << what;
     EXPECT_TRUE(answer.run.feasible()) << what;
-    EXPECT_NEAR(tried(answer.sets)(ends_of(answer).path), answer.factor, 1e-9) << what;
+    EXPECT_NEAR(tried(answer.sets)(thresholds_of(answer).path), answer.factor, 1e-9) << what;
   }
 }
 
 TEST(RemedySearch, FindsTheFarthestValueThatStaysFeasible) {
-  const Remedy made = search([](const Tried& change) { return feasible_if(within_all(change)); }, names());
-  ASSERT_EQ(made.answers.size(), 2 * kEnds.size());
+  const Remedy made = search([](const Tried& change) { return feasible_if(within_all(change)); }, threshold_names());
+  ASSERT_EQ(made.answers.size(), 2 * kThresholds.size());
   for (const RemedyAnswer& answer : made.answers) {
-    const double end = answer.up ? ends_of(answer).up : ends_of(answer).down;
+    const double end = answer.up ? thresholds_of(answer).up : thresholds_of(answer).down;
     const std::string what = fmt::format("{} at {}: {}", answer.key->name, end, answer.factor);
     EXPECT_TRUE(answer.crosses && answer.confirmed) << what;
     EXPECT_GE((end - answer.factor) * (answer.up ? 1 : -1), -1e-9) << what << " is infeasible";
@@ -243,7 +244,7 @@ TEST(RemedySearch, AnAnswerThatNoRunConfirmsIsNotConfirmed) {
 }
 
 /// Frequency and amplitude help only together. The fastest pair of the search is infeasible in the engine of the scenario.
-Prescribed pairs(const Tried& change) {
+Prescribed only_together(const Tried& change) {
   const double frequency = change("cpg.frequency"), amplitude = change("cpg.amplitude");
   const bool fastest = frequency > 0.4 && frequency < 0.5 && amplitude > 0.5 && amplitude < 0.6;
   const bool second = frequency > 0.3 && frequency < 0.4 && amplitude > 0.5 && amplitude < 0.6;
@@ -252,7 +253,7 @@ Prescribed pairs(const Tried& change) {
 }
 
 TEST(RemedySearch, TakesTheFastestFeasiblePairIfNoSettingAloneHelps) {
-  const Remedy made = search(pairs, {}, "bullet");
+  const Remedy made = search(only_together, {}, "bullet");
   ASSERT_TRUE(made.pair);
   EXPECT_NEAR(made.pair->frequency, std::pow(5, -4.0 / 6), 1e-9);
   EXPECT_NEAR(made.pair->amplitude, std::pow(5, -2.0 / 6), 1e-9);
@@ -272,7 +273,7 @@ TEST(RemedySearch, TakesTheFastestFeasiblePairIfNoSettingAloneHelps) {
 TEST(RemedySearch, TakesNoPairIfASettingHelpsOrIfOnlySomeAreAskedFor) {
   const Remedy alone = search([](const Tried& change) { return feasible_if(change("controller.Kp") > 2); }, {});
   EXPECT_FALSE(alone.pair || alone.map);
-  const Remedy asked = search(pairs, {"frequency", "amplitude"}, "bullet");
+  const Remedy asked = search(only_together, {"frequency", "amplitude"}, "bullet");
   EXPECT_FALSE(asked.pair || asked.map);
 }
 
