@@ -100,6 +100,7 @@ void take_demand(const Scenario& scenario, const Recording& recording, const rep
                  bool quiet) {
   if (Judged::limited(summary.judged.joints) == 0) {
     verdict.demand_doubt = "no motor reaches a limit, so that this run shows all that the gait demands";
+    verdict.supply_demand = report::supply_demand(scenario, recording, summary.judged);
     return;
   }
   Catalog catalog = standard_catalog();  // the plugins of the run are already loaded
@@ -113,20 +114,27 @@ void take_demand(const Scenario& scenario, const Recording& recording, const rep
   report::add_demand(verdict, scenario, summary, report::demand(twin, recording, summary, std::ref(progress)));
 }
 
-void take_word_without_friction(const Scenario& scenario, report::Verdict& verdict, bool quiet) try {
+void take_word_without_friction(const Scenario& scenario, report::Verdict& verdict, bool quiet) {
+  const auto unknown = [&](const std::string& why) {
+    if (!quiet) say(scenario.file, "note", "the word without this friction is not known: " + why);
+  };
   if (verdict.word != Word::infeasible || !verdict.unstable.empty()) return;
-  const std::vector<std::string> sets = without_chosen_friction(scenario);
-  if (sets.empty()) return;
-  Catalog catalog = standard_catalog();  // the plugins of the run are already loaded
-  const StoredScenario same{scenario.file + " (without chosen friction)", resolved(scenario, FilePaths::whole)};
-  const Scenario twin = read_stored(same, catalog, OtherPlugins::taken, sets);
-  if (!quiet) say(scenario.file, "note", "infeasible; simulated again without the chosen friction of its servos");
-  Progress progress(quiet);
-  verdict.without_friction = report::word_of(twin, std::ref(progress), stopped());
-} catch (const InputError& error) {  // for example a step that is too long without the inertia of the rotors
-  if (!quiet) say(scenario.file, "note", "the word without this friction is not known: " + error.problems().front().text);
-} catch (const std::bad_alloc&) {  // NOLINT(bugprone-empty-catch)
-} catch (const PluginError&) {     // NOLINT(bugprone-empty-catch)
+  try {
+    const std::vector<std::string> sets = without_chosen_friction(scenario);
+    if (sets.empty()) return;
+    Catalog catalog = standard_catalog();  // the plugins of the run are already loaded
+    const StoredScenario same{scenario.file + " (without chosen friction)", resolved(scenario, FilePaths::whole)};
+    const Scenario twin = read_stored(same, catalog, OtherPlugins::taken, sets);
+    if (!quiet) say(scenario.file, "note", "infeasible; simulated again without the chosen friction of its servos");
+    Progress progress(quiet);
+    verdict.without_friction = report::word_of(twin, std::ref(progress), stopped());
+  } catch (const InputError& error) {  // for example a step that is too long without the inertia of the rotors
+    unknown(error.problems().front().text);
+  } catch (const std::bad_alloc&) {
+    unknown("out of memory");
+  } catch (const PluginError& error) {
+    unknown(error.what());
+  }
 }
 
 int exit_code(const report::Verdict& verdict, const SummaryOptions& shown) {

@@ -36,8 +36,13 @@ void Pid::start(Out x) const { std::fill(x.begin(), x.end(), 0.0); }
 std::vector<PositionGains> Pid::gains() const {
   std::vector<PositionGains> all;
   for (std::size_t j = 0; j < joints_; ++j) {
-    all.push_back(
-        {.P = s_.Kp[j], .I = s_.Ki[j], .D = s_.Kd[j], .N = s_.N[j], .unit = s_.unit == Unit::volt ? "V/rad" : "N m/rad"});
+    const bool volts = s_.unit == Unit::volt;
+    all.push_back({.P = s_.Kp[j],
+                   .I = s_.Ki[j],
+                   .D = s_.Kd[j],
+                   .N = s_.N[j],
+                   .unit = volts ? "V/rad" : "N m/rad",
+                   .unit_of_D = volts ? "V s/rad" : "N m s/rad"});
   }
   return all;
 }

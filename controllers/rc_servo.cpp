@@ -1,5 +1,7 @@
 #include "controllers/rc_servo.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -83,7 +85,8 @@ void RcServo::Settings::fields(Fields& f) {
   f.per_joint("D", D, {"s/rad", 0, 1e6, "Derivative gain: duty per rate of the error."});
   f.per_joint("speed_limit", speed_limit, {"rad/s", 0, 1e6, "Largest speed of the goal; 0: no limit."});
   f.per_joint("acceleration_limit", acceleration_limit, {"rad/s^2", 0, 1e9, "Largest acceleration of the goal; 0: no limit."});
-  f.per_joint("latency", latency, {"s", 0, 10, "Time from a set point until it acts."});
+  f.per_joint("latency", latency,
+              {"s", 0, 10, "Time from a set point until it acts; the longest one is a state per control period."});
   f.per_joint("dead_band", dead_band, {"rad", 0, 1, "Error up to which the motor gets nothing."});
   f.per_joint("punch", punch, {"", 0, 1, "Least duty outside the dead band."});
   f.limit("limit", limit, {"", kPositive, 1, "Largest duty."});
@@ -96,6 +99,7 @@ void RcServo::Settings::fields(Fields& f) {
 }
 
 RcServo::RcServo(const RobotInfo& robot, Settings settings) : joints_(robot.joints.size()), s_(std::move(settings)) {
+  double most = 0;  // s, largest rounding
   for (std::size_t j = 0; j < joints_; ++j) {
     const double periods = s_.latency[j] > 0 ? s_.latency[j] / robot.control_period : 0;
     if (!(periods <= kMostOnWay)) {
@@ -104,8 +108,17 @@ RcServo::RcServo(const RobotInfo& robot, Settings settings) : joints_(robot.join
     }
     delay_.push_back(static_cast<std::size_t>(std::ceil(periods * (1 - kRounding))));
     on_way_ = std::max(on_way_, delay_.back());
+    const double late = static_cast<double>(delay_.back()) * robot.control_period;
+    const double rounding = robot.joints[j].driven ? late - s_.latency[j] : 0;
+    if (!(rounding > kRounding * late) || rounding <= most) continue;
+    most = rounding;
+    rounded_ = fmt::format(
+        "latency {:.4g} s{} acts as {:.4g} s, the next whole number of control periods (controller.period {:.4g} s)",
+        s_.latency[j], s_.latency.each.empty() ? "" : " of joint " + robot.joints[j].name, late, robot.control_period);
   }
 }
+
+std::string RcServo::note() const { return rounded_; }
 
 std::vector<PositionGains> RcServo::gains() const {
   std::vector<PositionGains> all;
@@ -119,7 +132,9 @@ std::vector<PositionGains> RcServo::gains() const {
                    .every = s_.every,
                    .key = own ? "gain" : "P",
                    .unit = own ? "/rad" : "",
-                   .per_key = own ? 1 : P / s_.P[j]});
+                   .per_key = own ? 1 : P / s_.P[j],
+                   .key_of_D = "D",
+                   .unit_of_D = "s/rad"});
   }
   return all;
 }
@@ -172,7 +187,12 @@ void RcServo::update(const Measured& m, In setpoint, In, Out x, Out command) con
       std::fill_n(on_way, on_way_, m.angle[j]);
     }
     double goal = setpoint[j];
-    if (delay_[j] > 0) std::swap(goal, on_way[static_cast<std::size_t>(tick) % delay_[j]]);
+    if (on_way_ > 0) {
+      const std::size_t now = static_cast<std::size_t>(tick) % on_way_;
+      const double late = on_way[(now + on_way_ - delay_[j]) % on_way_];
+      on_way[now] = setpoint[j];
+      if (delay_[j] > 0) goal = late;
+    }
     if (samples) {
       follow(j, goal, period, joint);
       this->command(j, joint.goal - m.angle[j], period, tick == 0, joint);

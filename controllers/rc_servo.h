@@ -28,6 +28,7 @@ class RcServo final : public Controller {
   /// Number of states: the count of ticks, then for every joint a Joint and its goals on the way.
   [[nodiscard]] std::size_t states() const override { return 1 + joints_ * (kJointStates + on_way_); }
   void start(Out x) const override;
+  [[nodiscard]] std::string note() const override;
   [[nodiscard]] std::vector<PositionGains> gains() const override;
   void update(const Measured& measured, In setpoint, In command_limit, Out x, Out command) const override;
 
@@ -42,9 +43,10 @@ class RcServo final : public Controller {
   void command(std::size_t joint, double error, double period, bool first, Joint& x) const;
 
   std::size_t joints_;
+  std::string rounded_;  ///< note on the latency that the control period changes most
   Settings s_;
   std::vector<std::size_t> delay_;  ///< by joint: control periods from a set point until it acts
-  std::size_t on_way_ = 0;          ///< goals that are kept for every joint
+  std::size_t on_way_ = 0;          ///< goals that are kept for every joint, so that a joint's latency can change in a run
 };
 
 }  // namespace gaitlab::controllers

@@ -13,16 +13,19 @@ const char* const Replay::kManual =
     u(t) = number in the column / scale, of the last row at or before t, sampled at control ticks
 
 Time 0 is the first row; after the last row its command holds. Joints without a column have the command 0. `unit` is that of the
-commands: V, N m, or duty, the share of the supply. With a section `measured` of the same log, the difference that is left is
+commands: V, N m, or duty, the share of the supply: a PWM of 885 at full duty has scale 885. `file` is a path relative to the
+scenario, or the text itself. With a section `measured` of the same log, the difference that is left is
 that of motor, friction and load alone, without the firmware. Set points do not act, so that check `tracking` says nothing.
 Source: none; the input of output-error identification (L. Ljung, System Identification, Prentice Hall 1999).
 
     controller:
       type: replay
-      period: 0.002
-      file: bench.csv
-      unit: duty
-      columns: [{joint: m0/hinge, column: pwm, scale: 885}])";
+      unit: V
+      columns: [{joint: m0/active, column: volts}]
+      file: |
+        t,   volts
+        0,   0
+        0.5, 3)";
 
 void Replay::Column::fields(Fields& f) {
   f.joint("joint", joint, "The joint.");

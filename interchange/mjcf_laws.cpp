@@ -11,6 +11,7 @@
 #include "core/laws/dc_motor.h"
 #include "core/plugin/actuator.h"
 #include "core/scenario/built_robot.h"
+#include "core/scenario/buses.h"
 #include "core/scenario/sensor_section.h"
 #include "core/settings/wording.h"
 #include "core/simulation/start.h"
@@ -137,7 +138,7 @@ Drives drives(const Scenario& s) {
       out.joints.push_back({c, 0, slope[j]});
       continue;
     }
-    const double volts = duty ? (s.supply.any() ? s.supply.voltage : actuator->command_limit()[j]) : 1;
+    const double volts = duty ? (supply_of(s, j).any() ? supply_of(s, j).voltage : actuator->command_limit()[j]) : 1;
     const double stiffness = c * volts * gains[j].P;
     out.joints.push_back({stiffness, stiffness, c * volts * gains[j].D + slope[j]});
     out.integral = out.integral || gains[j].I != 0;

@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "core/laws/dc_motor.h"
 #include "core/laws/hinge_stop.h"
 #include "core/plugin/actuator.h"
 #include "core/scenario/built_robot.h"
+#include "core/scenario/sensor_section.h"
 #include "core/settings/wording.h"
 
 namespace gaitlab::interchange {
@@ -51,6 +53,19 @@ std::vector<double> no_load_speeds(const Actuator& actuator, const std::vector<d
   return hi;
 }
 
+/// Largest command of each motor: its own limit, and what controller and supply let through.
+std::vector<double> largest_commands(const Scenario& scenario, const Actuator& actuator) {
+  std::vector<double> command(actuator.command_limit().begin(), actuator.command_limit().end());
+  const std::unique_ptr<Controller> controller = make_controller(scenario.controller, plugin_info(scenario));
+  const bool duty = controller != nullptr && controller->command_unit() == "duty";
+  const std::vector<PositionGains> gains = duty ? controller->gains() : std::vector<PositionGains>();
+  for (std::size_t j = 0; j < command.size(); ++j) {
+    const double bus = scenario.supply.any() ? scenario.supply.voltage : command[j];
+    command[j] = std::min(command[j], gains.empty() ? bus : std::min(1.0, gains[j].most) * bus);
+  }
+  return command;
+}
+
 }  // namespace
 
 std::string text(std::initializer_list<double> numbers) { return joined_numbers(numbers); }
@@ -66,7 +81,7 @@ std::vector<MotorLimits> motor_limits(const Scenario& scenario) {
   const std::unique_ptr<Actuator> actuator = make_motors(scenario);
   if (actuator == nullptr) return {};
   const std::size_t joints = scenario.robot->joints.size();
-  const std::vector<double> command(actuator->command_limit().begin(), actuator->command_limit().end());
+  const std::vector<double> command = largest_commands(scenario, *actuator);
   const std::vector<double> rest(joints, 0.0);
   std::vector<double> torque(joints);
   std::vector<double> slope(joints);
@@ -109,6 +124,8 @@ std::string left_out(const Scenario& s) {
   }
   if (s.cpg.entry != nullptr) out += fmt::format(" Gait: cpg {}.", name(s.cpg));
   if (!s.sensors.empty()) out += " Sensors: errors and delays, currents, loads and tilt; in URDF, all sensors.";
+  for (const std::size_t j : joints_with_play(*s.robot))
+    out += fmt::format(" Play of the gear of {}: {} rad.", s.robot->joints[j].name, number_text(s.robot->joints[j].play.width));
   return out + fmt::format(" Hinge stops: a spring of {} N m/rad and a damper of {} N m s/rad outside the range.",
                            number_text(HingeStop::kStiffness), number_text(HingeStop::kDamping));
 }

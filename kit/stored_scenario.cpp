@@ -12,6 +12,7 @@
 #include "core/files/file_kind.h"
 #include "core/files/spill.h"
 #include "core/recording/run_files.h"
+#include "core/scenario/buses.h"
 #include "core/scenario/plugin_files.h"
 #include "core/scenario/read_scenario.h"
 #include "core/settings/node.h"
@@ -94,8 +95,10 @@ void check_fit(const std::string& run, const Scenario& scenario, const Recording
   if (recording.ticks.columns.size() != tick_columns(joints).size()) {
     refuse(fmt::format("{} columns of ticks, of {} joints", recording.ticks.columns.size(), joints));
   }
-  if (recording.ticks.rows() > 0 && scenario.supply.any() == recording.supply.columns.empty()) {
-    refuse(scenario.supply.any() ? "there is no table of the scenario's supply" : "the scenario has no supply");
+  if (const std::vector<MotorBus> all = buses(scenario); recording.ticks.rows() > 0 && recording.buses() != all.size()) {
+    refuse(all.empty()              ? "the scenario has no supply"
+           : recording.buses() == 0 ? "there is no table of the scenario's supply"
+                                    : fmt::format("{} supplies, of {} in the scenario", recording.buses(), all.size()));
   }
   const bool contact = recording.worst.source == Stability::Source::contact;
   const std::size_t places = contact ? contact_elements(*scenario.robot, scenario.contact.on).size() : joints;

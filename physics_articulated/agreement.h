@@ -37,7 +37,7 @@ class Agreement {
   /// the state. `peak` contains the largest torque of each joint so far, N m.
   template <class Difference>
   math::Mask<T> within(double share, const math::Mask<T>& which, const StepLimits<T>& limits, const StepMotors<T>& motors,
-                       std::span<const T> peak, Difference difference) {
+                       const Plays<T>& plays, std::span<const T> peak, Difference difference) {
     math::Mask<T> within = which;
     math::Mask<T> loose = limits.slide;
     for (const math::Mask<T>& limited : limits.motor) loose = math::mask_or(loose, limited);
@@ -46,7 +46,11 @@ class Agreement {
     const std::size_t joints = limits.motor.size();
     for (std::size_t j = 0; j < joints; ++j) {
       const T least = kFloor * motors.scale[j];
-      const T apart = motors.per_speed[j] * math::abs(difference(StateLayout::kAngles + joints + j));
+      T apart = motors.per_speed[j] * math::abs(difference(plays.entry(j)));
+      if (plays.has(j)) {  // the speed of the link counts like that of its motor
+        const T of_link = motors.per_speed[j] * math::abs(difference(StateLayout::kAngles + joints + j));
+        apart = math::select(of_link > apart, of_link, apart);
+      }
       const T here = math::select(limits.motor[j], kAtLimit * allowed, allowed);
       within = math::mask_and(within, apart <= here * math::select(peak[j] > least, peak[j], least));
     }

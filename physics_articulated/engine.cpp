@@ -68,10 +68,13 @@ class ArticulatedPlant final : public Plant {
   ArticulatedPlant(const PlantSettings& s, std::unique_ptr<articulated::OtherDynamics> dynamics)
       : settings_(s),
         dynamics_(std::move(dynamics)),
-        layout_{s.robot->joints.size(), 1 + s.others.size()},
+        layout_{s.robot->joints.size(), 1 + s.others.size(), joints_with_play(*s.robot).size()},
         explicit_(method_of(s.integrator) == articulated::StepMethod::rk4),
-        x_(layout_.size() / layout_.lanes),
-        state_{.q = std::vector<double>(layout_.joints), .qd = std::vector<double>(layout_.joints)} {
+        x_(StateLayout{layout_.joints, 1}.size()),
+        state_{.q = std::vector<double>(layout_.joints),
+               .qd = std::vector<double>(layout_.joints),
+               .rotor = std::vector<double>(layout_.plays),
+               .rotor_speed = std::vector<double>(layout_.plays)} {
     std::vector<LaneConstants> rollouts;
     for (std::size_t l = 0; l < layout_.lanes; ++l) {
       const LaneSettings& own = l == 0 ? settings_ : settings_.others[l - 1];

@@ -1,19 +1,20 @@
 // Implicit step for a scalar type T (double or lanes), after which every motor, stop and contact satisfies its law.
 #pragma once
-#include "core/laws/hinge_stop.h"
 #include "physics_articulated/contacts.h"
-#include "physics_articulated/holds.h"
+#include "physics_articulated/line_search.h"
 #include "physics_articulated/motion.h"
 #include "physics_articulated/motors.h"
+#include "physics_articulated/plays.h"
 #include "physics_articulated/solo.h"
 #include "physics_articulated/sticking.h"
+#include "physics_articulated/stops.h"
 
 namespace gaitlab::articulated {
 
 /// Result of one implicit step.
 template <class T>
 struct StepResult {
-  std::vector<T> torque, speed, angle;           ///< motor torques, N m; joint speeds and angles at the end of the step
+  std::vector<T> torque, speed, angle;  ///< at the end of the step: torques and speeds of motors, N m, rad/s; joint angles
   T contact = 0.0, friction = 0.0, stops = 0.0;  ///< work of the robot on the ground and on stops, J
   T hinges = 0.0;                                ///< work on dampers and friction of passive hinges, J
   explicit StepResult(std::size_t joints) : torque(joints), speed(joints), angle(joints) {}
@@ -33,7 +34,7 @@ struct StepResult {
 /// the law of a side goes on beyond rest, and a joint that sticks ends the step at rest, under the torque that this needs.
 /// A mode that contradicts the iterate changes, and the step is solved again: a joint that turns against its side sticks, and
 /// one that sticks under more than its friction turns. The modes at the start depend on the speeds alone, without
-/// memory.
+/// memory. Motors of gears with play have speeds of their own, further coordinates of phi (Plays).
 template <class T>
 class Implicit {
  public:
@@ -48,38 +49,33 @@ class Implicit {
       : body(tree, environment.gravity, environment.dynamics),
         contacts(tree, environment),
         motors(actuator, tree.lo.size(), tree.passive, tree.hinges, lanes),
-        holds(tree.lo.size()),
-        rotor(tree.lo.size(), T(0.0)),
+        stops(tree),
+        rotor(rotors(tree.lo.size(), actuator, lanes)),
+        plays(tree, rotor),
         done(tree.lo.size()),
         tree_(tree),
         joints_(tree.lo.size()),
-        place_(StateLayout::kAngles + 2 * joints_, T(0.0)),
+        place_(StateLayout::kAngles + 2 * (joints_ + plays.size()), T(0.0)),
         sticking_(motors, joints_),
         rests_(joints_),
-        now_(joints_),
-        next_(joints_) {
+        now_(joints_, plays.size()),
+        next_(joints_, plays.size()) {
     passive_.assign(tree.passive.size(), T(0.0));
-    hinges_ = tree.hinges;
-    for (BasicPassiveHinge<T>& hinge : hinges_) hinge.friction = T(0.0);  // `motors` has it
     for (auto* values : {&stop_, &stop_slope_, &force_, &diagonal_, &end_}) values->assign(joints_, T(0.0));
-    const In inertia = actuator == nullptr ? In() : actuator->reflected_inertia();
-    if (inertia.empty()) return;
-    for (std::size_t j = 0; j < joints_; ++j) {
-      for (std::size_t l = 0; l < math::kLanes<T>; ++l) math::lane(rotor[j], l) = inertia[j * lanes.all + lanes.first + l];
-    }
+    if (plays.any()) motor_end_.assign(joints_, T(0.0));
   }
 
   /// Takes smooth laws of friction, for explicit methods.
   void creep() {
     motors.creep();
-    hinges_ = tree_.hinges;
+    stops.creep();
   }
 
   /// Advances the lanes `which` of x by a step and fills done, solves and off. `command` is constant, with index joint * lanes
   /// + lane.
   void step(std::span<T> x, In command, double h, const math::Mask<T>& which) {
     std::copy(x.begin(), x.end(), place_.begin());
-    drift<T>(place_, h);
+    drift<T>(place_, joints_, h);
     body.forward_kinematics(place_);
     contacts.find(body, h, h);
     start(x, command, h);
@@ -98,12 +94,12 @@ class Implicit {
       if (solve == 0) {
         move(open);
       } else {
-        move(open, share(open, x, command, h));
+        move(open, falling_share<T>(open, [&](const T& share) { return climb(x, command, h, share); }));
       }
       open = math::mask_and(open, misses(x, command, h));
       if (!math::any_lane(open)) break;
-      if (motors.any_jump && sticking_.change(open, now_.torque, end_, solve >= Sticking<T>::kTogether, switched))
-        motors.linearise(command, end_);
+      if (motors.any_jump && sticking_.change(open, now_.torque, motor_ends(), solve >= Sticking<T>::kTogether, switched))
+        motors.linearise(command, motor_ends());
       touch(open, x, h);
     }
     finish(x, h, which);
@@ -112,7 +108,7 @@ class Implicit {
   /// Takes changed motors and stuck hinges: Plant::change_joints for these lanes.
   void change(In hold, In since, const LaneRange& lanes) {
     motors.take(tree_.passive, lanes);
-    holds.change(hold, since, lanes);
+    stops.holds.change(hold, since, lanes);
   }
 
   /// Takes the results of a solo's step in the lane `l`; `which` contains only this lane.
@@ -138,13 +134,14 @@ class Implicit {
     body.forward_kinematics(x);
     contacts.find(body, 0, 0);
     contacts.begin(0);
-    motors.begin(command, speeds(x));
-    motors.linearise(command, speeds(x));
+    motors.begin(command, plays.motor_speeds(x));
+    motors.linearise(command, plays.motor_speeds(x));
     motors.torque = motors.law;
-    for (std::size_t j = 0; j < joints_; ++j) stop_[j] = stop_law(x, j);
+    plays.evaluate(x);
+    for (std::size_t j = 0; j < joints_; ++j) stop_[j] = stops.at(x, j, speeds(x)[j]);
     for (std::size_t k = 0; k < tree_.passive.size(); ++k) {
       const std::size_t j = tree_.passive[k];
-      passive_[k] = hinges_[k].spring(x[StateLayout::kAngles + j]) + hinges_[k].loss(speeds(x)[j]).torque;
+      passive_[k] = stops.hinges[k].spring(x[StateLayout::kAngles + j]) + stops.hinges[k].loss(speeds(x)[j]).torque;
       stop_[j] = stop_[j] + passive_[k];
     }
     if (!motors.any_jump) return accelerate(0);
@@ -160,10 +157,10 @@ class Implicit {
   void add_friction(std::span<const T> x, In command, Out torque) {
     if (!motors.rubs()) return;
     for (std::size_t j = 0; j < joints_; ++j) {
-      const T friction = motors.friction(j, speeds(x)[j]);
+      const T friction = motors.friction(j, x[plays.entry(j)]);
       for (std::size_t l = 0; l < math::kLanes<T>; ++l) torque[j * math::kLanes<T> + l] += math::lane(friction, l);
     }
-    motors.begin(command, speeds(x));
+    motors.begin(command, plays.motor_speeds(x));
     rests_ = motors.sticks;
     if (std::ranges::none_of(rests_, [](const auto& sticks) { return math::any_lane(sticks); })) return;
     evaluate(x, command);
@@ -178,7 +175,7 @@ class Implicit {
   /// Power that the robot gives to the ground along its normal, to the ground along its surface, to stops, and to dampers and
   /// friction of passive hinges, W. Called after evaluate().
   std::array<T, 4> powers(std::span<const T> x) const {
-    std::array<T, 4> sum{T(0.0), T(0.0), T(0.0), T(0.0)};
+    std::array<T, 4> sum{T(0.0), T(0.0), plays.power(x), T(0.0)};
     for (const Contact<T>& c : contacts.touching()) {
       sum[0] = sum[0] - c.fn * c.vn;
       sum[1] = sum[1] - dot(c.friction(c.vt), c.vt);
@@ -187,7 +184,7 @@ class Implicit {
     for (std::size_t k = 0; k < tree_.passive.size(); ++k) {
       const T& w = speeds(x)[tree_.passive[k]];
       sum[2] = sum[2] + passive_[k] * w;
-      sum[3] = sum[3] - hinges_[k].loss(w).torque * w;
+      sum[3] = sum[3] - stops.hinges[k].loss(w).torque * w;
     }
     return sum;
   }
@@ -200,9 +197,11 @@ class Implicit {
       diagonal_[j] = rotor[j] + (h > 0 ? T(h) * (motors.slope[j] + stop_slope_[j]) : T(0.0));
     }
     if (motors.any_jump) sticking_.lock(stop_, stop_slope_, rotor, h, force_, diagonal_);
+    plays.reduce(motors, stop_, stop_slope_, h, sticking_.locks, force_, diagonal_);
     body.solve(
         force_, diagonal_, next_.a, [&](std::size_t link, typename TreeBody<T>::Load load) { contacts.load(link, load, h); },
         motors.any_jump ? &sticking_.locks : nullptr);
+    plays.recover(motors, h, sticking_.locks, next_.a);
   }
 
   [[nodiscard]] std::span<T> speeds(std::span<T> x) const { return x.subspan(StateLayout::kAngles + joints_, joints_); }
@@ -220,8 +219,9 @@ class Implicit {
   TreeBody<T> body;
   Contacts<T> contacts;
   StepMotors<T> motors;
-  Holds<T> holds;              ///< their time is set before step() and evaluate()
-  std::vector<T> rotor;        ///< reflected inertia of each joint, kg m^2
+  Stops<T> stops;        ///< the time of `holds` is set before step() and evaluate()
+  std::vector<T> rotor;  ///< reflected inertia of each joint without play, kg m^2
+  Plays<T> plays;
   StepResult<T> done;          ///< result of the last step
   T solves = 0.0;              ///< number of solves of the last step
   math::Mask<T> unfinished{};  ///< lanes in which Newton's method did not converge
@@ -231,19 +231,18 @@ class Implicit {
  private:
   /// Iterate of Newton's method: accelerations, and the torques in the solve at these accelerations.
   struct Iterate {
-    explicit Iterate(std::size_t joints) : a(6 + joints), torque(joints), stop(joints) {}
+    Iterate(std::size_t joints, std::size_t plays) : a(6 + joints + plays), torque(joints), stop(joints) {}
     std::vector<T> a, torque, stop;
   };
-  using Stop = StopTorque<T>;
-
   /// Sets the tangents at the speeds at the end of the last step, so that every law begins on the branch of that step.
   void start(std::span<const T> x, In command, double h) {
     const math::Mask<T> all = T(0.0) <= T(0.0);
-    motors.begin(command, speeds(x));
-    motors.linearise(command, speeds(x));
+    motors.begin(command, plays.motor_speeds(x));
+    motors.linearise(command, plays.motor_speeds(x));
+    plays.start(x, h);
     for (std::size_t j = 0; j < joints_; ++j) {
-      motors.touch(j, all, speeds(x)[j], speeds(x)[j]);
-      const Stop s = stopped(x, j, speeds(x)[j], h);
+      motors.touch(j, all, x[plays.entry(j)], x[plays.entry(j)]);
+      const StopTorque<T> s = stops.both_at_end(x, j, speeds(x)[j], h);
       stop_[j] = s.torque;
       stop_slope_[j] = s.slope;
     }
@@ -251,11 +250,11 @@ class Implicit {
   }
 
   void solve(std::span<const T> x, double h) {
-    if (motors.any_jump) sticking_.stop(speeds(x), h);
+    if (motors.any_jump) sticking_.stop(plays.motor_speeds(x), h);
     accelerate(h);
     contacts.solved(body, h);
     for (std::size_t j = 0; j < joints_; ++j) {
-      next_.torque[j] = motors.torque[j] - T(h) * motors.slope[j] * next_.a[6 + j];
+      next_.torque[j] = motors.torque[j] - T(h) * motors.slope[j] * next_.a[6 + plays.shaft(j)];
       if (motors.any_jump) next_.torque[j] = math::select(motors.sticks[j], sticking_.locks.torque[j], next_.torque[j]);
       next_.stop[j] = stop_[j] - T(h) * stop_slope_[j] * next_.a[6 + j];
     }
@@ -270,6 +269,7 @@ class Implicit {
     go(now_.a, next_.a);
     go(now_.torque, next_.torque);
     go(now_.stop, next_.stop);
+    plays.move(which, T(1.0));
   }
   void move(const math::Mask<T>& which, const T& share) {
     contacts.move(which, share);
@@ -279,70 +279,63 @@ class Implicit {
     go(now_.a, next_.a);
     go(now_.torque, next_.torque);
     go(now_.stop, next_.stop);
+    plays.move(which, share);
   }
 
   /// Derivative of phi with respect to `share` on the way from the iterate to the last solve. The forces of the solve are
   /// linear on this way and balance M (v+ - v) at both ends of the way. The derivative is therefore the power of the forces of
   /// the solve minus the forces of the laws, and M itself is not needed.
   T climb(std::span<const T> x, In command, double h, const T& share) {
-    for (std::size_t j = 0; j < joints_; ++j) {
-      end_[j] = speeds(x)[j] + T(h) * (now_.a[6 + j] + share * (next_.a[6 + j] - now_.a[6 + j]));
-    }
-    motors.linearise(command, end_);
+    const auto reached = [&](std::size_t c) { return now_.a[6 + c] + share * (next_.a[6 + c] - now_.a[6 + c]); };
+    for (std::size_t j = 0; j < joints_; ++j) end_[j] = speeds(x)[j] + T(h) * reached(j);
+    set_motor_ends(x, h, reached);
+    motors.linearise(command, motor_ends());
     T sum = contacts.excess(share, h);
     for (std::size_t j = 0; j < joints_; ++j) {
       const T d = T(h) * (next_.a[6 + j] - now_.a[6 + j]);
       const T held = now_.torque[j] + now_.stop[j] + share * (next_.torque[j] + next_.stop[j] - now_.torque[j] - now_.stop[j]);
       const T motor = motors.any_jump ? math::select(motors.sticks[j], next_.torque[j], motors.law[j]) : motors.law[j];
-      sum = sum + d * (held - motor - stopped(x, j, end_[j], h).torque);
+      const T stop = stops.both_at_end(x, j, end_[j], h).torque;
+      sum = sum + d * (held - motor - stop);
+      if (!plays.has(j)) continue;
+      const T beside = T(h) * (next_.a[6 + plays.shaft(j)] - now_.a[6 + plays.shaft(j)]) - d;  // motor relative to link
+      const T torque = now_.torque[j] + share * (next_.torque[j] - now_.torque[j]);
+      sum = sum + beside * (torque - motor);
+    }
+    for (std::size_t k = 0; k < plays.size(); ++k) {
+      const T d = T(h) * (next_.a[6 + joints_ + k] - now_.a[6 + joints_ + k] - next_.a[6 + plays.joint(k)] +
+                          now_.a[6 + plays.joint(k)]);
+      const T held = plays.now[k] + share * (plays.next[k] - plays.now[k]);
+      sum = sum + d * (held - plays.law(x, k, motor_end_, end_, h));
     }
     return sum;
-  }
-
-  /// Share of the way from the iterate to the last solve. It is 1 if phi falls up to that solution. Otherwise it is the
-  /// share at which the slope of phi is 0, to 1 % of the slope at the start of the way (regula falsi, every third time a
-  /// bisection).
-  T share(const math::Mask<T>& which, std::span<const T> x, In command, double h) {
-    using math::select;
-    const T zero = 0.0, one = 1.0;
-    T hi = one, f_hi = climb(x, command, h, one);
-    auto open = math::mask_and(which, f_hi > zero);
-    if (!math::any_lane(open)) return one;
-    const T start = climb(x, command, h, zero);
-    open = math::mask_and(open, start < zero);
-    T lo = zero, f_lo = start, result = one;
-    for (int i = 0; i < 40 && math::any_lane(open); ++i) {
-      const T a = i % 3 == 2 ? 0.5 * (lo + hi) : lo + (hi - lo) * f_lo / select(open, f_lo - f_hi, one);
-      const T f = climb(x, command, h, a);
-      result = select(open, a, result);
-      open = math::mask_and(open, math::abs(f) > -0.01 * start);
-      const auto below = f < zero;
-      lo = select(below, a, lo);
-      f_lo = select(below, f, f_lo);
-      hi = select(below, hi, a);
-      f_hi = select(below, f_hi, f);
-    }
-    return result;
   }
 
   /// Lanes where the law of a motor, end stop or contact, at the end speeds of the iterate, differs from the force in the
   /// solve. Sets missed_ to the number of joints whose motor or end stop differs.
   math::Mask<T> misses(std::span<const T> x, In command, double h) {
     for (std::size_t j = 0; j < joints_; ++j) end_[j] = speeds(x)[j] + T(h) * now_.a[6 + j];
-    if (motors.any_jump) sticking_.come_to_rest(speeds(x), end_);
-    motors.linearise(command, end_);
+    set_motor_ends(x, h, [&](std::size_t c) { return now_.a[6 + c]; });
+    if (motors.any_jump) sticking_.come_to_rest(plays.motor_speeds(x), motor_ends());
+    motors.linearise(command, motor_ends());
     math::Mask<T> any = contacts.off(h);
     missed_ = T(0.0);
     for (std::size_t j = 0; j < joints_; ++j) {
       auto motor = math::abs(motors.law[j] - now_.torque[j]) > torque_tolerance_ * motors.scale[j];
       if (motors.any_jump)
-        motor = math::mask_or(math::fresh(motor, motors.sticks[j]), sticking_.contradicts(j, now_.torque, end_));
+        motor = math::mask_or(math::fresh(motor, motors.sticks[j]), sticking_.contradicts(j, now_.torque, motor_ends()));
       // The rounding error of the torque of a passive spring may exceed the tolerance of a stop.
       const T allowed = tree_.passive.empty() ? T(kStopTolerance) : T(kStopTolerance) + T(kRounding) * math::abs(now_.stop[j]);
-      const auto stop = math::abs(stopped(x, j, end_[j], h).torque - now_.stop[j]) > allowed;
+      const auto stop = math::abs(stops.both_at_end(x, j, end_[j], h).torque - now_.stop[j]) > allowed;
       const auto joint = math::mask_or(motor, stop);
       missed_ = missed_ + math::select(joint, T(1.0), T(0.0));
       any = math::mask_or(any, joint);
+    }
+    for (std::size_t k = 0; k < plays.size(); ++k) {
+      const T allowed = T(kStopTolerance) + T(kRounding) * math::abs(plays.now[k]);
+      const auto flank = math::abs(plays.law(x, k, motor_end_, end_, h) - plays.now[k]) > allowed;
+      missed_ = missed_ + math::select(flank, T(1.0), T(0.0));
+      any = math::mask_or(any, flank);
     }
     return any;
   }
@@ -352,51 +345,13 @@ class Implicit {
   void touch(const math::Mask<T>& which, std::span<const T> x, double h) {
     using math::select;
     for (std::size_t j = 0; j < joints_; ++j) {
-      motors.touch(j, which, speeds(x)[j], end_[j]);
-      const Stop s = stopped(x, j, end_[j], h);
+      motors.touch(j, which, x[plays.entry(j)], motor_ends()[j]);
+      const StopTorque<T> s = stops.both_at_end(x, j, end_[j], h);
       stop_slope_[j] = select(which, s.slope, stop_slope_[j]);
       stop_[j] = select(which, s.torque + s.slope * (end_[j] - speeds(x)[j]), stop_[j]);
     }
+    plays.touch(which, x, motor_end_, end_, h);
     contacts.touch(which, h);
-  }
-
-  /// Torque of stop and passive hinge together if a step h ends with the speed qd.
-  Stop stopped(std::span<const T> x, std::size_t j, const T& qd, double h) const {
-    Stop both = stop_at_end(x, j, qd, h);
-    for (std::size_t k = 0; k < tree_.passive.size(); ++k) {
-      if (tree_.passive[k] != j) continue;
-      const BasicPassiveHinge<T>& hinge = hinges_[k];
-      const auto loss = hinge.loss(qd);
-      both.torque = both.torque + hinge.spring(x[StateLayout::kAngles + j] + T(h) * qd) + loss.torque;
-      both.slope = both.slope + loss.slope + T(h) * hinge.stiffness;
-    }
-    return both;
-  }
-
-  /// Torque of a stop if a step h ends with the speed qd: -ks (q + h qd - q_lim) - cs qd, or 0 if the stop would pull. If the
-  /// joint starts within its range, the damping torque is -cs (q + h qd - q_lim) / h, the mean over the step. The damping
-  /// torque at the end of the step would jump.
-  Stop stop_at_end(std::span<const T> x, std::size_t j, const T& qd, double h) const {
-    using math::select;
-    const T& q = x[StateLayout::kAngles + j];
-    const T &lo = tree_.lo[j], &hi = tree_.hi[j], zero = 0.0;
-    constexpr double k = BasicHingeStop<T>::kStiffness;
-    constexpr double c = BasicHingeStop<T>::kDamping;
-    const auto up = q > 0.5 * (lo + hi);
-    const T excess = q - select(up, hi, lo);
-    const auto within = math::mask_and(q <= hi, q >= lo);
-    const T end = excess + h * qd;
-    const T torque = -k * end - c * select(within, (1 / h) * end, qd);
-    const auto acts = math::mask_or(math::mask_and(up, torque < zero), math::fresh(torque > zero, up));
-    const Stop own{select(acts, torque, zero), select(acts, T(c + h * k), zero)};
-    return holds.any() ? holds.instead_of(own, j, q, qd, h) : own;
-  }
-
-  /// Torque of a stop or of a stuck hinge.
-  [[nodiscard]] T stop_law(std::span<const T> x, std::size_t j) const {
-    const T &q = x[StateLayout::kAngles + j], &qd = speeds(x)[j];
-    const T own = BasicHingeStop<T>::at(q, qd, tree_.lo[j], tree_.hi[j]).torque;
-    return holds.any() ? holds.instead_of({own, T(0.0)}, j, q, qd, 0).torque : own;
   }
 
   /// Writes the iterate into the state. Works use the mean of the velocities at start and end of the step.
@@ -412,6 +367,7 @@ class Implicit {
     for (std::size_t j = 0; j < joints_; ++j) {
       done.stops = done.stops - h * now_.stop[j] * (speeds(x)[j] + 0.5 * h * now_.a[6 + j]);
     }
+    if (plays.any()) done.stops = done.stops + plays.work(x, now_.a, h);
     for (std::size_t i = 0; i < 6; ++i) {
       T& v = x[StateLayout::kVelocity + i];
       v = math::select(which, v + T(h) * now_.a[i], v);
@@ -419,17 +375,23 @@ class Implicit {
     const std::span<T> qd = speeds(x);
     for (std::size_t j = 0; j < joints_; ++j) {
       const T end = qd[j] + T(h) * now_.a[6 + j];
-      const T rest = motors.any_jump ? math::select(motors.sticks[j], T(0.0), end) : end;
+      const T rest = motors.any_jump && !plays.has(j) ? math::select(motors.sticks[j], T(0.0), end) : end;
       qd[j] = math::select(which, rest, qd[j]);
       // The law of a joint that sticks is vertical.
       if (motors.any_jump) motors.slope[j] = math::select(motors.sticks[j], T(kVertical), motors.slope[j]);
     }
+    for (std::size_t k = 0; k < plays.size(); ++k) {
+      T& w = x[plays.speeds() + k];
+      const T end = w + T(h) * now_.a[6 + joints_ + k];
+      const T rest = motors.any_jump ? math::select(motors.sticks[plays.joint(k)], T(0.0), end) : end;
+      w = math::select(which, rest, w);
+    }
     std::copy(x.begin(), x.end(), place_.begin());
-    drift<T>(place_, h);
+    drift<T>(place_, joints_, h);
     for (std::size_t e = 0; e < x.size(); ++e) x[e] = math::select(which, place_[e], x[e]);
     done.torque = now_.torque;
     for (const std::size_t j : tree_.passive) done.torque[j] = T(0.0);  // friction of the hinge, which no motor makes
-    std::ranges::copy(qd, done.speed.begin());
+    std::ranges::copy(plays.motor_speeds(x), done.speed.begin());
     std::copy_n(x.begin() + StateLayout::kAngles, joints_, done.angle.begin());
   }
 
@@ -437,19 +399,40 @@ class Implicit {
   void finish_hinge(std::size_t k, std::span<const T> x, double h) {
     const std::size_t j = tree_.passive[k];
     const T end = speeds(x)[j] + T(h) * now_.a[6 + j];
-    const T stop = stop_at_end(x, j, end, h).torque;
-    const T spring = hinges_[k].spring(x[StateLayout::kAngles + j] + T(h) * end);
+    const T stop = stops.at_end(x, j, end, h).torque;
+    const T spring = stops.hinges[k].spring(x[StateLayout::kAngles + j] + T(h) * end);
     const T lost = now_.stop[j] - stop - spring + (motors.any_jump ? now_.torque[j] : T(0.0));
     done.hinges = done.hinges - T(h) * lost * (speeds(x)[j] + T(0.5) * T(h) * now_.a[6 + j]);
     now_.stop[j] = stop;
   }
 
+  /// Reflected inertia of each joint, kg m^2.
+  static std::vector<T> rotors(std::size_t joints, const Actuator* actuator, const LaneRange& lanes) {
+    std::vector<T> all(joints, T(0.0));
+    const In inertia = actuator == nullptr ? In() : actuator->reflected_inertia();
+    for (std::size_t j = 0; j < joints && !inertia.empty(); ++j) {
+      for (std::size_t l = 0; l < math::kLanes<T>; ++l) math::lane(all[j], l) = inertia[j * lanes.all + lanes.first + l];
+    }
+    return all;
+  }
+
+  /// Sets motor_end_, after end_. `accelerated(c)`: acceleration of coordinate c behind those of the base.
+  template <class Accelerated>
+  void set_motor_ends(std::span<const T> x, double h, const Accelerated& accelerated) {
+    if (!plays.any()) return;
+    motor_end_ = end_;
+    for (std::size_t k = 0; k < plays.size(); ++k)
+      motor_end_[plays.joint(k)] = x[plays.speeds() + k] + T(h) * accelerated(joints_ + k);
+  }
+  /// Speeds of the motors at the end of the step in the iterate, by joint.
+  [[nodiscard]] std::vector<T>& motor_ends() { return plays.any() ? motor_end_ : end_; }
+
   static constexpr double kVertical = std::numeric_limits<double>::infinity();
 
   const Tree<T>& tree_;
   std::size_t joints_;
-  std::vector<T> passive_;                    ///< torques of passive hinges, set by evaluate()
-  std::vector<BasicPassiveHinge<T>> hinges_;  ///< laws of passive hinges, without dry friction unless it creeps
+  std::vector<T> passive_;    ///< torques of passive hinges, set by evaluate()
+  std::vector<T> motor_end_;  ///< empty without play
   std::vector<T> place_, stop_, stop_slope_, force_, diagonal_, end_;
   Sticking<T> sticking_;
   std::vector<math::Mask<T>> rests_;  ///< joints at rest in add_friction()

@@ -20,7 +20,7 @@ class ScalarSolo final : public Solo {
   }
 
   void step(Out x, In command, double h, double end) override {
-    implicit_.holds.at(end);
+    implicit_.stops.holds.at(end);
     implicit_.switched = false;
     implicit_.step(x, command, h, true);
     contact = implicit_.done.contact;

@@ -13,7 +13,7 @@ class LaneKernel final : public Kernel {
       : tree_(trees(s.rollouts)),
         environment_(environment<T>(s)),
         stepper_(tree_, environment_, s.actuator, s.method, accuracy(s), s.solos),
-        x_(StateLayout::kAngles + 2 * tree_.lo.size()) {
+        x_(StateLayout::kAngles + 2 * (tree_.lo.size() + tree_.plays.size())) {
     contact_forces_.reserve(tree_.points.size());
     parts_.reserve(stepper_.most_parts());
     forces_.reserve(tree_.points.size());
@@ -33,7 +33,7 @@ class LaneKernel final : public Kernel {
   void change(In hold, In since) override { stepper_.implicit.change(hold, since, {0, math::kLanes<T>}); }
   void add_friction(In state, In command, double within, Out torque) override {
     load(state);
-    stepper_.implicit.holds.at(within);
+    stepper_.implicit.stops.holds.at(within);
     stepper_.implicit.add_friction(x_, command, torque);
   }
   [[nodiscard]] History history() const override { return stepper_.layout; }

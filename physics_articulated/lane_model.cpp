@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/dynamics/rotor_inertia.h"
 #include "core/laws/joint_friction.h"
 #include "physics_articulated/eigen.h"
 
@@ -36,12 +37,17 @@ LaneModel::LaneModel(const PlantSettings& settings, const LaneSettings& own, std
       rotor_(own.robot->joints.size()),
       a_(6 + rotor_.size()),
       zero_(rotor_.size()),
+      motor_speed_(rotor_.size()),
+      plays_(joints_with_play(*own.robot)),
       first_(own.robot->links.size()),
       kinematics_(*own.robot),
-      monitor_(*own.robot) {
+      monitor_(*own.robot, rotors_beside(*own.robot, settings.actuator, lane, lanes)) {
   for (auto* values : {&command_, &speed_, &torque_, &slope_}) values->resize(rotor_.size() * lanes);
   const In inertia = settings.actuator == nullptr ? In() : settings.actuator->reflected_inertia();
-  for (std::size_t j = 0; j < rotor_.size() && !inertia.empty(); ++j) rotor_[j] = inertia[j * lanes + lane];
+  for (std::size_t j = 0; j < rotor_.size() && !inertia.empty(); ++j) {
+    // The rotor behind play is not part of the robot: its motor passes on a torque by the flanks.
+    if (!own.robot->joints[j].play.any()) rotor_[j] = inertia[j * lanes + lane];
+  }
   monitor_.contacts.reserve(own.contacts.size());
 }
 
@@ -85,7 +91,9 @@ Stability LaneModel::stability(In x, const RobotState& state, In command, bool s
   body_.solve(zero_, rotor_, a_, [](std::size_t, TreeBody<double>::Load) {});  // factorises the mass matrix for apply
   if (settings_.actuator != nullptr) {
     if (standing) std::fill(command_.begin(), command_.end(), 0.0);
-    ask(standing ? In(command_) : command, standing ? In(zero_) : In(state.qd));
+    motor_speed_ = state.qd;
+    for (std::size_t k = 0; k < plays_.size(); ++k) motor_speed_[plays_[k]] = state.rotor_speed[k];
+    ask(standing ? In(command_) : command, standing ? In(zero_) : In(motor_speed_));
   }
   for (std::size_t j = 0; j < rotor_.size(); ++j) monitor_.motor[j] = slope_[j * lanes_ + lane_];
   return monitor_.rule(own_, settings_.base, kinematics_, state, standing, settings_.step, *this, [&] {

@@ -32,7 +32,8 @@ class LaneModel final : private InverseMass {
   Environment<double> environment_;
   TreeBody<double> body_;
   Contacts<double> contacts_;
-  std::vector<double> rotor_, a_, zero_;
+  std::vector<double> rotor_, a_, zero_, motor_speed_;
+  std::vector<std::size_t> plays_;                        // joints with play
   std::vector<double> command_, speed_, torque_, slope_;  // all lanes: joint * lanes + lane
   std::vector<std::size_t> first_, next_;                 // wrenches of accelerate(): first of each link, next on the same link
   Kinematics kinematics_;

@@ -13,7 +13,8 @@ namespace gaitlab::articulated {
 template <class T>
 class LostSpeeds {
  public:
-  explicit LostSpeeds(std::size_t joints) : lost_(joints, T(0.0)) {}
+  /// `entries`: number of the entries of the state behind the joint angles.
+  explicit LostSpeeds(std::size_t entries) : lost_(entries, T(0.0)) {}
 
   /// Finds the joints that the last part of a step, h seconds from `start` to `end`, ends at rest although their friction
   /// cannot hold them. On average they turn back after half of it: |acceleration| h / 2, rad/s. Returns the lanes of `which`
@@ -22,28 +23,33 @@ class LostSpeeds {
                      const math::Mask<T>& which) {
     math::Mask<T> any{};
     used_ = implicit.motors.any_jump;
-    for (std::size_t j = 0; used_ && j < lost_.size(); ++j) {
-      const std::size_t e = first() + j;
+    const Plays<T>& plays = implicit.plays;
+    const std::size_t joints = implicit.motors.jumps.size();
+    first_ = StateLayout::kAngles + joints;
+    for (std::size_t j = 0; used_ && j < joints; ++j) {
+      const std::size_t e = plays.entry(j);
       const auto rests = math::mask_and(math::abs(start[e]) > T(0.0), math::abs(end[e]) <= T(0.0));
       const auto here = math::mask_and(which, math::mask_and(implicit.motors.jumps[j], rests));
-      lost_[j] = math::select(here, T(h / 2), T(0.0));
+      lost_[e - first_] = math::select(here, T(h / 2), T(0.0));
       any = math::mask_or(any, here);
     }
     if (!math::any_lane(any)) return any;
     implicit.evaluate(std::span<const T>(end), command);
-    for (std::size_t j = 0; j < lost_.size(); ++j) lost_[j] = lost_[j] * math::abs(implicit.accelerations()[6 + j]);
+    for (std::size_t j = 0; j < joints; ++j) {
+      T& lost = lost_[plays.entry(j) - first_];
+      lost = lost * math::abs(implicit.accelerations()[6 + plays.shaft(j)]);
+    }
     return any;
   }
 
   /// A difference of entry e of the state, with the lost speed of its joint.
   [[nodiscard]] T added(std::size_t e, const T& apart) const {
-    return used_ && e >= first() ? math::abs(apart) + lost_[e - first()] : apart;
+    return used_ && e >= first_ ? math::abs(apart) + lost_[e - first_] : apart;
   }
 
  private:
-  [[nodiscard]] std::size_t first() const { return StateLayout::kAngles + lost_.size(); }
-
-  std::vector<T> lost_;  ///< rad/s, by joint
+  std::size_t first_ = 0;  ///< entry of the first joint speed
+  std::vector<T> lost_;    ///< rad/s, by entry of the state from the joint speeds on; 0 for entries other than speeds of motors
   bool used_ = false;
 };
 

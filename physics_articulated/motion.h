@@ -30,10 +30,12 @@ void normalise(std::span<T> x) {
 
 /// q (+) h v: positions and angles are added, the orientation turns by the rotation vector h omega.
 template <class T>
-void drift(std::span<T> x, double h) {
-  const std::size_t joints = (x.size() - StateLayout::kAngles) / 2;
+void drift(std::span<T> x, std::size_t joints, double h) {
   for (std::size_t i = 0; i < 3; ++i) x[i] = x[i] + h * x[StateLayout::kVelocity + i];
   for (std::size_t j = StateLayout::kAngles; j < StateLayout::kAngles + joints; ++j) x[j] = x[j] + h * x[j + joints];
+  const std::size_t rotors = StateLayout::kAngles + 2 * joints;
+  const std::size_t plays = (x.size() - rotors) / 2;
+  for (std::size_t k = rotors; k < rotors + plays; ++k) x[k] = x[k] + h * x[k + plays];
   constexpr std::size_t w = StateLayout::kAngularVelocity;
   const Vec<T> omega{x[w], x[w + 1], x[w + 2]};
   const T rate = math::sqrt(dot(omega, omega));

@@ -35,12 +35,12 @@ class Stepper {
         joints_(tree.lo.size()),
         agreement_(accuracy),
         history_(layout.size(), T(0.0)),
-        lost_(joints_),
+        lost_(2 * implicit.plays.size() + joints_),
         solos_(solos),
-        of_solo_(StateLayout::kAngles + 2 * joints_),
+        of_solo_(StateLayout::kAngles + 2 * (joints_ + implicit.plays.size())),
         command_of_solo_(joints_),
         eighths_(of_solo_.size()) {
-    const std::vector<T> zero(StateLayout::kAngles + 2 * joints_, T(0.0));
+    const std::vector<T> zero(of_solo_.size(), T(0.0));
     for (auto* state : {&sum_, &stage_, &rate_}) *state = zero;
     const StepWay<T> way{zero, 0, 0};
     levels_.assign(kLevels, {zero, 0, way, way, way, way, way, way, {std::vector<math::Mask<T>>(joints_), {}}});
@@ -96,8 +96,9 @@ class Stepper {
   /// Adds a part for the start of the step under the new command, because the motor torques there may be peaks.
   void take_start(std::span<const T> x, In command) {
     StepMotors<T>& motors = implicit.motors;
-    motors.begin(command, implicit.speeds(x));
-    motors.linearise(command, implicit.speeds(x));
+    const std::span<const T> speeds = implicit.plays.motor_speeds(x);
+    motors.begin(command, speeds);
+    motors.linearise(command, speeds);
     StepPart<T>& part = add_part();
     part.torque = motors.law;
     for (std::size_t j = 0; motors.any_jump && j < joints_; ++j) {
@@ -105,7 +106,7 @@ class Stepper {
       part.torque[j] = math::select(motors.sticks[j], least, part.torque[j]);
     }
     for (const std::size_t j : motors.passive()) part.torque[j] = T(0.0);
-    std::ranges::copy(implicit.speeds(x), part.speed.begin());
+    std::ranges::copy(speeds, part.speed.begin());
     std::copy_n(x.begin() + StateLayout::kAngles, joints_, part.angle.begin());
     part.contact = part.friction = part.stops = part.hinges = T(0.0);
     part.lanes = T(0.0) <= T(0.0);
@@ -150,7 +151,7 @@ class Stepper {
     if (alone < math::kLanes<T>) {
       step_alone(alone, x, command, h, at + h, which);
     } else {
-      implicit.holds.at(at + h);
+      implicit.stops.holds.at(at + h);
       implicit.step(x, command, h, which);
       apart_ = math::fresh(apart_, which);
     }
@@ -187,7 +188,7 @@ class Stepper {
   /// would mean a torque on the other side of the jump.
   void keep_modes(std::span<T> x, const std::vector<T>& two, const std::vector<T>& four, const math::Mask<T>& second) const {
     for (std::size_t j = 0; j < joints_; ++j) {
-      const std::size_t e = StateLayout::kAngles + joints_ + j;
+      const std::size_t e = implicit.plays.entry(j);
       const T finest = math::select(second, two[e], four[e]);
       const auto other = math::mask_and(implicit.motors.jumps[j], x[e] * finest <= T(0.0));
       x[e] = math::select(other, finest, x[e]);
@@ -279,7 +280,7 @@ class Stepper {
     const auto &one = own.whole.x, &two = own.halves.x, &four = own.quarters.x;
     const auto agree = [&](double share, const math::Mask<T>& in, const StepLimits<T>& after, const auto& difference) {
       const std::span<const T> peak(&history_[layout.peak()], joints_);
-      return agreement_.within(share, in, after, implicit.motors, peak, difference);
+      return agreement_.within(share, in, after, implicit.motors, implicit.plays, peak, difference);
     };
     find_lost(own.half.x, two, command, h / 2, which);
     auto second =
@@ -347,7 +348,12 @@ class Stepper {
     turn<T>(x, T(0.0), T(0.5) * Vec<T>{x[w], x[w + 1], x[w + 2]}, rate);
     std::copy_n(implicit.accelerations().begin(), 6, rate.begin() + StateLayout::kVelocity);
     std::ranges::copy(implicit.speeds(x), rate.begin() + StateLayout::kAngles);
-    std::ranges::copy(implicit.accelerations().subspan(6), implicit.speeds(rate).begin());
+    std::ranges::copy(implicit.accelerations().subspan(6, joints_), implicit.speeds(rate).begin());
+    const Plays<T>& plays = implicit.plays;
+    for (std::size_t k = 0; k < plays.size(); ++k) {
+      rate[plays.angles() + k] = x[plays.speeds() + k];
+      rate[plays.speeds() + k] = implicit.accelerations()[6 + joints_ + k];
+    }
   }
 
   void runge_kutta(std::span<T> x, In command, double h) {
@@ -361,10 +367,10 @@ class Stepper {
     part.sum = part.share = T(h);
     part.contact = part.friction = part.stops = part.hinges = T(0.0);
     std::fill(part.torque.begin(), part.torque.end(), T(0.0));
-    std::ranges::copy(implicit.speeds(x), part.speed.begin());
+    std::ranges::copy(implicit.plays.motor_speeds(x), part.speed.begin());
     std::copy_n(x.begin() + StateLayout::kAngles, joints_, part.angle.begin());
     for (std::size_t i = 0; i < 4; ++i) {
-      implicit.holds.at(i == 0 ? 0 : kReach[i - 1] * h);
+      implicit.stops.holds.at(i == 0 ? 0 : kReach[i - 1] * h);
       derive(stage_, command, rate_);
       const auto [normal, along, on_stops, on_hinges] = implicit.powers(stage_);
       part.contact = part.contact + kWeight[i] * h * normal;
@@ -382,7 +388,7 @@ class Stepper {
   }
 
   StepMethod method_;
-  std::size_t joints_;
+  std::size_t joints_, used_ = 0;
   Agreement<T> agreement_;
   std::vector<T> history_, sum_, stage_, rate_;
   LostSpeeds<T> lost_;
@@ -395,7 +401,6 @@ class Stepper {
   math::Mask<T> slide_{};  ///< lanes of apart_ in which most of the load slides
   std::vector<std::vector<T>> halved_;
   std::vector<StepPart<T>> parts_;
-  std::size_t used_ = 0;
 };
 
 }  // namespace gaitlab::articulated

@@ -41,6 +41,7 @@ Tree<double> tree(const Robot& robot, Base base, const std::vector<ContactElemen
     const Joint& joint = robot.joints[j];
     all.lo.push_back(joint.lo);
     all.hi.push_back(joint.hi);
+    if (joint.play.any()) all.plays.push_back({j, law(joint.play)});
     if (joint.driven()) continue;
     all.passive.push_back(j);
     all.hinges.push_back(law(*joint.passive));

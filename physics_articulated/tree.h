@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "core/laws/gear_play.h"
 #include "core/laws/passive_hinge.h"
 #include "core/model/base.h"
 #include "physics_articulated/vector.h"
@@ -34,6 +35,13 @@ struct TreePoint {
   T friction = 1.0;  ///< factor on the ground's coefficient
 };
 
+/// A joint whose gear has play.
+template <class T>
+struct TreePlay {
+  std::size_t joint = 0;
+  BasicGearPlay<T> law;
+};
+
 /// Constants of the robots of all lanes. All lanes have the same links, joints and points, but may have different numbers.
 template <class T>
 struct Tree {
@@ -43,6 +51,7 @@ struct Tree {
   std::vector<T> lo, hi;                     ///< range of each joint, rad; infinite without a stop
   std::vector<std::size_t> passive;          ///< joints without a motor
   std::vector<BasicPassiveHinge<T>> hinges;  ///< laws of these joints
+  std::vector<TreePlay<T>> plays;            ///< in the order of the joints
 };
 
 Tree<double> tree(const Robot& robot, Base base, const std::vector<ContactElement>& contacts);
@@ -85,6 +94,7 @@ Tree<T> side_by_side(std::span<const Tree<double>* const> lanes) {
   all.hi.resize(first.hi.size());
   all.passive = first.passive;
   all.hinges.resize(first.hinges.size());
+  all.plays.resize(first.plays.size());
   for (std::size_t l = 0; l < lanes.size(); ++l) {
     const Tree<double>& one = *lanes[l];
     for (std::size_t i = 0; i < all.links.size(); ++i) {
@@ -118,6 +128,11 @@ Tree<T> side_by_side(std::span<const Tree<double>* const> lanes) {
       put(to.damping, l, from.damping);
       put(to.friction, l, from.friction);
       put(to.friction_speed, l, from.friction_speed);
+    }
+    for (std::size_t k = 0; k < all.plays.size(); ++k) {
+      all.plays[k].joint = one.plays[k].joint;
+      put(all.plays[k].law.half, l, one.plays[k].law.half);
+      put(all.plays[k].law.stiffness, l, one.plays[k].law.stiffness);
     }
   }
   return all;

@@ -18,7 +18,7 @@ class BulletDynamics final : public articulated::OtherDynamics {
         gravity_(s.gravity),
         base_(s.base),
         actuator_(s.actuator),
-        layout_{robot_.joints.size(), 1},
+        layout_{robot_.joints.size(), 1, joints_with_play(robot_).size()},
         body_(robot_, s.base, s.contacts),
         kinematics_(robot_) {
     for (auto* values : {&state_.q, &state_.qd, &acceleration_.joints}) values->resize(layout_.joints);

@@ -12,6 +12,7 @@
 
 #include "core/dynamics/rotor_inertia.h"
 #include "core/errors.h"
+#include "core/laws/gear_play.h"
 #include "core/laws/hinge_stop.h"
 #include "core/laws/joint_friction.h"
 #include "core/laws/passive_hinge.h"
@@ -34,15 +35,20 @@ class BulletPlant final : public Plant, private InverseMass {
   explicit BulletPlant(const PlantSettings& s)
       : settings_(s),
         robot_(*s.robot),
-        layout_{robot_.joints.size(), 1},
+        plays_(joints_with_play(robot_)),
+        rotors_beside_(rotors_beside(robot_, s.actuator, 0, 1)),
+        layout_{robot_.joints.size(), 1, plays_.size()},
         body_(robot_, s.base, s.contacts),
         kinematics_(robot_),
-        integrator_(s.integrator == kRk4 ? ExplicitIntegrator::rk4 : ExplicitIntegrator::semi_implicit, robot_.joints.size()),
-        monitor_(robot_) {
+        integrator_(s.integrator == kRk4 ? ExplicitIntegrator::rk4 : ExplicitIntegrator::semi_implicit, robot_.joints.size(),
+                    plays_.size()),
+        monitor_(robot_, rotors_beside_) {
     const std::size_t n = robot_.joints.size();
     state_.q.resize(n);
     state_.qd.resize(n);
     acceleration_.joints.resize(n);
+    acceleration_.rotors.resize(plays_.size());
+    motor_speed_.resize(n);
     torque_.resize(n);
     slope_.resize(n);
     applied_.resize(n);
@@ -62,7 +68,8 @@ class BulletPlant final : public Plant, private InverseMass {
 
   void advance(In command, double h) override {
     layout_.read(numbers_, 0, state_);
-    start_speed_ = state_.qd;
+    take_motor_speeds(state_);
+    start_speed_ = motor_speed_;
     start_angle_ = state_.q;
     std::fill(applied_.begin(), applied_.end(), 0.0);
     work_ = {};
@@ -73,8 +80,9 @@ class BulletPlant final : public Plant, private InverseMass {
         applied_[j] += weight * torque_[j];
         const double stop = stop_at(state, j);
         work_[2] -= weight * h * stop * state.qd[j];
-        body_.add_torque(j, torque_[j] + stop);
+        body_.add_torque(j, (robot_.joints[j].play.any() ? 0 : torque_[j]) + stop);
       }
+      turn_rotors(state, weight * h, out);
       for (const std::size_t j : passive_) {
         const PassiveHinge hinge = law(*robot_.joints[j].passive);
         const double lost = hinge.loss(state.qd[j]).torque;
@@ -142,6 +150,25 @@ class BulletPlant final : public Plant, private InverseMass {
     rotors_->add_to(out);
   }
 
+  /// Speeds of the motors of all joints.
+  void take_motor_speeds(const RobotState& state) {
+    motor_speed_ = state.qd;
+    for (std::size_t k = 0; k < plays_.size(); ++k) motor_speed_[plays_[k]] = state.rotor_speed[k];
+  }
+
+  /// Accelerations of the motors of joints with play, the torques of their gears on the links, and the work on the gears in the
+  /// time `weight`.
+  void turn_rotors(const RobotState& state, double weight, Acceleration& out) {
+    for (std::size_t k = 0; k < plays_.size(); ++k) {
+      const std::size_t j = plays_[k];
+      const double speed = state.rotor_speed[k] - state.qd[j];
+      const double on_motor = law(robot_.joints[j].play).at(state.rotor[k] - state.q[j], speed).torque;
+      out.rotors[k] = (torque_[j] + on_motor) / rotors_beside_[k];
+      work_[2] -= weight * on_motor * speed;
+      body_.add_torque(j, -on_motor);
+    }
+  }
+
   /// Torque of a stop or of a stuck hinge.
   [[nodiscard]] double stop_at(const RobotState& state, std::size_t j) const {
     const double hold = monitor_.hold[j];
@@ -194,11 +221,14 @@ class BulletPlant final : public Plant, private InverseMass {
       power_[1] += c.force.friction_slope * c.slip * c.slip;
       body_.add_force(c.link, c.touch.point - kinematics_.point(c.link, robot_.links[c.link].com), c.world());
     });
-    ask(command, state.qd);
+    take_motor_speeds(state);
+    ask(command, motor_speed_);
   }
 
   PlantSettings settings_;
   const Robot& robot_;
+  std::vector<std::size_t> plays_;     ///< joints with play
+  std::vector<double> rotors_beside_;  ///< reflected inertias of their motors, kg m^2
   StateLayout layout_;
   Out numbers_;
   bullet::MultiBody body_;
@@ -207,7 +237,7 @@ class BulletPlant final : public Plant, private InverseMass {
   std::optional<RotorInertia> rotors_;  ///< needed because the algorithm of Bullet has no rotor inertia
   ExplicitIntegrator integrator_;
   Acceleration acceleration_;
-  std::vector<double> torque_, slope_, applied_, at_rest_, start_speed_, start_angle_;
+  std::vector<double> torque_, slope_, applied_, at_rest_, start_speed_, start_angle_, motor_speed_;
   std::vector<double> since_, grip_;  ///< by joint: s, time stuck at the start of the step; grip in the middle of the step
   OnePart part_;
   std::array<double, 2> power_ = {};  ///< power given to the ground along its normal and along its surface, W

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <memory>
@@ -8,8 +9,10 @@
 #include "app/gait/run_time.h"
 #include "app/look/module_table.h"
 #include "app/shell/commands.h"
+#include "core/dynamics/rotor_inertia.h"
 #include "core/files/atomic_file.h"
 #include "core/plugin/robot_info.h"
+#include "core/scenario/built_robot.h"
 #include "core/settings/settings_numbers.h"
 #include "core/settings/wording.h"
 #include "core/simulation/recorder.h"
@@ -75,9 +78,24 @@ void print_joints(const Robot& robot) {
     const Joint& joint = robot.joints[j];
     const std::string range = joint.turns_freely() ? "free" : fmt::format("{:+.4f} {:+.4f}", joint.lo, joint.hi);
     const std::array<double, 3>& axis = seen.joints[j].axis;
-    print_fitted(fmt::format("  {:5}  {:<16} {:5.2f} {:5.2f} {:5.2f}  {}{}\n", j, joint.name, rounded(axis[0]),
-                             rounded(axis[1]), rounded(axis[2]), range, joint.driven() ? "" : "  without a motor"));
+    const std::string play = joint.play.any() ? fmt::format("  play {:.4g}", joint.play.width) : "";
+    print_fitted(fmt::format("  {:5}  {:<16} {:5.2f} {:5.2f} {:5.2f}  {}{}{}\n", j, joint.name, rounded(axis[0]),
+                             rounded(axis[1]), rounded(axis[2]), range, joint.driven() ? "" : "  without a motor", play));
   }
+}
+
+/// Prints how gears with play are simulated.
+void print_play(const Scenario& s) {
+  const std::vector<std::size_t> joints = joints_with_play(*s.robot);
+  if (joints.empty()) return;
+  const std::vector<double> rotors = rotors_beside(*s.robot, make_motors(s).get(), 0, 1);
+  double fastest = 0;
+  for (std::size_t k = 0; k < joints.size(); ++k)
+    fastest = std::max(fastest, std::sqrt(s.robot->joints[joints[k]].play.stiffness / rotors[k]));
+  print_fitted(
+      fmt::format("  play of {}: each motor is a wheel of its own with the inertia of its rotor, between two stops on its\n"
+                  "    link (natural frequency up to {:.0f} rad/s); angles are those of links, torques those of motors\n",
+                  counted(joints.size(), "gear"), fastest));
 }
 
 /// Prints the estimated time of a run and, if another engine is faster, the estimated time with that engine.
@@ -153,6 +171,7 @@ int check(const CheckArguments& arguments) {
     print_fitted(fmt::format("  fails early: {}\n", failure));
   for (const PluginFile& plugin : s.plugins) print_fitted(fmt::format("  plugin {} ({})\n", plugin.path, plugin.hash));
   print_joints(robot);
+  print_play(s);
   print_creep(s);
   if (arguments.page) {
     write_page(s, *arguments.page);

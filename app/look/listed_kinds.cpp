@@ -8,6 +8,7 @@
 
 #include "app/app.h"
 #include "app/look/module_table.h"
+#include "app/look/servo_table.h"
 #include "app/shell/progress.h"
 #include "core/scenario/manual.h"
 #include "core/scenario/read_scenario.h"
@@ -57,14 +58,20 @@ std::vector<std::string> check_ids(const Catalog&) {
   return ids;
 }
 
-/// First sentence of the comment at the head of a file, after the line for editors.
-std::string head_sentence(const std::string& text) {
+/// Comment at the head of a file, after the line for editors.
+std::string head_comment(const std::string& text) {
   std::istringstream lines(text);
   std::string comment;
   for (std::string line; std::getline(lines, line) && line.starts_with("#");) {
     if (line.find("yaml-language-server") == std::string::npos) comment += line.substr(1);
   }
   comment.erase(0, comment.find_first_not_of(' '));
+  return comment;
+}
+
+/// First sentence of the comment at the head of a file.
+std::string head_sentence(const std::string& text) {
+  std::string comment = head_comment(text);
   comment = comment.substr(0, std::min(comment.find(". "), comment.find(": gaitlab")));
   return comment.ends_with(".") ? comment.substr(0, comment.size() - 1) : comment;
 }
@@ -101,7 +108,12 @@ std::vector<ListedKind> all_kinds() {
     return module_manual(shipped_file("module", name), catalog);
   };
   all.push_back(std::move(modules));
-  all.push_back(of_files("servo", "servos", false));
+  ListedKind servos = of_files("servo", "servos", false);
+  servos.manual = [](const std::string& name, Catalog& catalog) {
+    const std::string file = shipped_file("servo", name);
+    return fmt::format("{}file: {}\n", servo_table(file, head_comment(read_text(file)), catalog), file);
+  };
+  all.push_back(std::move(servos));
   all.push_back(of_files("robot", "robots", true));
   all.push_back({"figure", "figures", [](const Catalog&) { return to_strings(report::panel_names()); },
                  [](const std::string& name, Catalog&) { return first_line(report::panel_kind(name).about); },

@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
 
+#include "app/look/cells.h"
 #include "core/model/docking.h"
 #include "core/model/outline.h"
 #include "core/model/solid.h"
@@ -20,24 +20,6 @@ namespace gaitlab::app {
 using namespace report;
 
 namespace {
-
-using Cells = std::vector<std::string>;
-
-/// Table text with columns as wide as their widest cell, indented and separated by two blanks. The first row is the header.
-std::string aligned(const std::vector<Cells>& rows) {
-  std::vector<std::size_t> width(rows.front().size());
-  for (const Cells& row : rows) {
-    for (std::size_t i = 0; i < row.size(); ++i) width[i] = std::max(width[i], row[i].size());
-  }
-  std::string text;
-  for (const Cells& row : rows) {
-    std::string line;
-    for (std::size_t i = 0; i < row.size(); ++i) line += fmt::format("  {:<{}}", row[i], width[i]);
-    line.erase(line.find_last_not_of(' ') + 1);
-    text += line + "\n";
-  }
-  return text;
-}
 
 double mass_of(const ModuleType& type) {
   double mass = 0;
@@ -72,6 +54,18 @@ std::string spring_of(const Passive& p) {
   return text;
 }
 
+std::string drive_of(const HingeType& hinge) {
+  if (hinge.passive) return spring_of(*hinge.passive);
+  if (!hinge.play.any()) return "";
+  return fmt::format("play {:.4g} rad{}", hinge.play.width, hinge.play.encoder_at_motor ? ", encoder at the motor" : "");
+}
+
+std::string battery(const Supply& supply) {
+  if (!supply.any()) return "";
+  return fmt::format("battery: {:.4g} V, {:.4g} ohm, {}, {}\n", supply.voltage, supply.resistance, stated(supply.current, "A"),
+                     stated(supply.capacity, "A h"));
+}
+
 /// Motors of a module type. Empty if the type names no actuator, because the scenario's default actuator is not that of the
 /// module.
 Motors motors_of(const Scenario& one) {
@@ -90,10 +84,9 @@ std::string hinges(const Robot& robot, const Motors& known) {
     const bool asked = robot.joints[j].driven() && !known.of_joint.empty();
     const Envelope motor = asked ? known.joint(j) : Envelope();
     rows.push_back({name, direction(hinge.in_parent.R * hinge.axis), range_of(hinge), quantity(motor.rest, "N m"),
-                    quantity(motor.no_load, "rad/s"), quantity(motor.continuous, "A"),
-                    hinge.passive ? spring_of(*hinge.passive) : ""});
+                    quantity(motor.no_load, "rad/s"), quantity(motor.continuous, "A"), drive_of(hinge)});
   }
-  return rows.size() > 1 ? aligned(rows) : "  no hinges\n";
+  return rows.size() > 1 ? cells_text(rows) : "  no hinges\n";
 }
 
 /// Centre of mass, m, with 0 in place of coordinates that are only rounding errors.
@@ -115,7 +108,7 @@ std::string bodies(const ModuleType& type) {
                     fmt::format("{:.4g} {:.4g} {:.4g} mm", com.x(), com.y(), com.z()),
                     fmt::format("{:.4g} {:.4g} {:.4g}", body.inertia(0, 0), body.inertia(1, 1), body.inertia(2, 2))});
   }
-  return aligned(rows);
+  return cells_text(rows);
 }
 
 std::string faces(const ModuleType& type) {
@@ -128,7 +121,7 @@ std::string faces(const ModuleType& type) {
     rows.push_back({std::to_string(face.id), type.bodies[face.body].name, name_of(face.gender),
                     face.connector.empty() ? "-" : face.connector, turns, direction(face.normal)});
   }
-  return rows.size() > 1 ? aligned(rows) : "  no faces\n";
+  return rows.size() > 1 ? cells_text(rows) : "  no faces\n";
 }
 
 std::string connectors(const ModuleType& type) {
@@ -137,7 +130,7 @@ std::string connectors(const ModuleType& type) {
     rows.push_back(
         {name, stated(one.tension, "N"), stated(one.shear, "N"), stated(one.bending, "N m"), stated(one.torsion, "N m")});
   }
-  return rows.size() > 1 ? aligned(rows) : "";
+  return rows.size() > 1 ? cells_text(rows) : "";
 }
 
 /// Adds a line `WHERE: SOURCE` for every `source` in the document, where WHERE is the path of its keys.
@@ -183,11 +176,11 @@ std::string module_table(const Scenario& one) {
   const ModuleType& type = robot.types[0];
   std::string sources;
   if (!one.module_documents->empty()) add_sources(one.module_documents->front(), "", sources);
-  return fmt::format("{}: {}, {:.4g} kg in {}, {} and {}\n\n{}\n{}\n{}{}{}", type.name, size_text(robot), mass_of(type),
+  return fmt::format("{}: {}, {:.4g} kg in {}, {} and {}\n\n{}\n{}{}\n{}{}{}", type.name, size_text(robot), mass_of(type),
                      type.bodies.size() == 1 ? "1 body" : fmt::format("{} bodies", type.bodies.size()),
                      counted(type.hinges.size(), "hinge"), counted(type.faces.size(), "face"), bodies(type),
-                     hinges(robot, motors_of(one)), faces(type), type.connectors.empty() ? "" : "\n" + connectors(type),
-                     sources.empty() ? "" : "\nsources\n" + sources);
+                     hinges(robot, motors_of(one)), battery(type.battery), faces(type),
+                     type.connectors.empty() ? "" : "\n" + connectors(type), sources.empty() ? "" : "\nsources\n" + sources);
 }
 
 }  // namespace gaitlab::app

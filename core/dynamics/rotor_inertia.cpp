@@ -9,13 +9,22 @@ bool has_rotors(const Actuator* actuator) {
   return std::ranges::any_of(inertia, [](double value) { return value > 0; });
 }
 
+std::vector<double> rotors_beside(const Robot& robot, const Actuator* actuator, std::size_t lane, std::size_t lanes) {
+  const In inertia = actuator == nullptr ? In() : actuator->reflected_inertia();
+  std::vector<double> all;
+  for (const std::size_t j : joints_with_play(robot)) all.push_back(inertia.empty() ? 0 : inertia[j * lanes + lane]);
+  return all;
+}
+
 RotorInertia::RotorInertia(const Robot& robot, Base base, In inertia)
     : base_(base_entries(base)),
       mass_(robot, base),
       inertia_(inertia.begin(), inertia.end()),
       sum_(mass_.matrix()),
       factor_(sum_.rows()),
-      vector_(sum_.rows()) {}
+      vector_(sum_.rows()) {
+  for (const std::size_t j : joints_with_play(robot)) inertia_[j] = 0;
+}
 
 void RotorInertia::update(const Kinematics& kinematics) {
   mass_.update(kinematics);

@@ -10,6 +10,9 @@ namespace gaitlab {
 /// True if the rotor of a motor has an inertia. `actuator` may be null.
 bool has_rotors(const Actuator* actuator);
 
+/// Reflected inertias of the motors of joints with play, kg m^2, from the actuator of several lanes. `actuator` may be null.
+std::vector<double> rotors_beside(const Robot& robot, const Actuator* actuator, std::size_t lane, std::size_t lanes);
+
 /// Rotors behind gears add n^2 J to the diagonal of the mass matrix: (M + J) a = f. Their gyroscopic moments and the motion of
 /// their axes are neglected, as usual for n >> 1. Accelerations a_0 = M^-1 f, computed by any algorithm, are corrected to
 ///     a = a_0 - (M + J)^-1 J a_0
@@ -17,7 +20,7 @@ bool has_rotors(const Actuator* actuator);
 /// joints)^3). Only the constructor allocates.
 class RotorInertia {
  public:
-  /// `inertia` is n^2 J per joint, kg m^2.
+  /// `inertia` is n^2 J per joint, kg m^2. It is left out where a gear has play: such a rotor turns beside the robot.
   RotorInertia(const Robot& robot, Base base, In inertia);
   void update(const Kinematics& kinematics);
   /// Replaces a_0 by a.

@@ -14,6 +14,6 @@ inline constexpr double gain_of_share(double share, double voltage, double no_lo
 /// Efficiency of a gear that eats a share of the sum of motor's and load's torque: T_m - T_l = share (T_m + T_l).
 inline constexpr double efficiency_of_load(double share) { return (1 - share) / (1 + share); }
 inline constexpr double load_of_efficiency(double eta) { return (1 - eta) / (1 + eta); }
-inline constexpr double kUsualShare = 0.7;  // chosen (docs/modules.md): fast, without overshoot
+inline constexpr double kUsualShare = 0.7;  // chosen (docs/library.md, inertia and gains): for gaits
 
 }  // namespace gaitlab

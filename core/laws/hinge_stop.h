@@ -1,6 +1,7 @@
 // Stop of a hinge outside its range: a spring and damper that only pushes back, with its slopes.
 #pragma once
 #include "core/math/lanes.h"
+#include "core/model/play.h"
 
 namespace gaitlab {
 
@@ -9,20 +10,22 @@ namespace gaitlab {
 /// q: angle, rad; qd: speed, rad/s; torque on the joint, N m. T: double or lanes.
 template <class T>
 struct BasicHingeStop {
-  static constexpr double kStiffness = 50;  ///< ks, N m/rad
-  static constexpr double kDamping = 0.5;   ///< cs, N m s/rad
+  static constexpr double kStiffness = kStopStiffness;  ///< ks, N m/rad
+  static constexpr double kDamping = kStopDamping;      ///< cs, N m s/rad
 
   T torque = 0.0;
   T damping = 0.0;    ///< -d(torque)/d(qd), N m s/rad
   T stiffness = 0.0;  ///< -d(torque)/d(q), N m/rad
 
-  static BasicHingeStop at(const T& q, const T& qd, const T& lo, const T& hi) {
+  /// The stiffness k and damping c of another stop may be given.
+  static BasicHingeStop at(const T& q, const T& qd, const T& lo, const T& hi, const T& k = T(kStiffness),
+                           const T& c = T(kDamping)) {
     using math::select;
     const T zero = 0.0;
     const T excess = select(q > hi, q - hi, select(q < lo, q - lo, zero));
-    const T torque = -kStiffness * excess - kDamping * qd;
+    const T torque = -k * excess - c * qd;
     const math::Mask<T> rests = torque * excess >= 0.0;
-    return {select(rests, zero, torque), select(rests, zero, T(kDamping)), select(rests, zero, T(kStiffness))};
+    return {select(rests, zero, torque), select(rests, zero, c), select(rests, zero, k)};
   }
 };
 

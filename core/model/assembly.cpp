@@ -154,8 +154,13 @@ class Builder {
     const std::size_t link = robot_.links.size();
     robot_.links.push_back({static_cast<int>(from.link), static_cast<int>(number), from.in_link * in_near, hinge.axis, 0,
                             Vec3::Zero(), Mat3::Zero()});
-    robot_.joints[number] = {fmt::format("m{}/{}", index, hinge.name), static_cast<std::size_t>(index), link,
-                             reversed ? -hinge.hi : hinge.lo,          reversed ? -hinge.lo : hinge.hi, hinge.passive};
+    robot_.joints[number] = {fmt::format("m{}/{}", index, hinge.name),
+                             static_cast<std::size_t>(index),
+                             link,
+                             reversed ? -hinge.hi : hinge.lo,
+                             reversed ? -hinge.lo : hinge.hi,
+                             hinge.passive,
+                             hinge.play};
     if (reversed && hinge.passive) robot_.joints[number].passive->rest = -hinge.passive->rest;
     set_body(index, far, link, far_in_link);
   }
@@ -185,6 +190,14 @@ class Builder {
 };
 
 }  // namespace
+
+std::vector<std::size_t> joints_with_play(const Robot& robot) {
+  std::vector<std::size_t> joints;
+  for (std::size_t j = 0; j < robot.joints.size(); ++j) {
+    if (robot.joints[j].play.any()) joints.push_back(j);
+  }
+  return joints;
+}
 
 Robot assemble(std::vector<ModuleType> types, const std::vector<std::size_t>& type_of_module, const std::vector<Dock>& docks) {
   check_docks(types, type_of_module, docks);

@@ -14,12 +14,15 @@ struct RobotState {
   Vec3 velocity = Vec3::Zero();          ///< velocity of the origin of the base frame, m/s
   Vec3 angular_velocity = Vec3::Zero();  ///< rad/s
   std::vector<double> q, qd;             ///< joint angles, rad, and speeds, rad/s
+  /// Of the motors of joints with play (joints_with_play), geared: angles at the joint, rad, and speeds, rad/s.
+  std::vector<double> rotor = {}, rotor_speed = {};
 };
 
 /// Time derivative of the velocities of a RobotState, world axes, SI.
 struct Acceleration {
   Vec3 linear = Vec3::Zero(), angular = Vec3::Zero();  ///< linear: of the origin of the base frame; angular: of the base frame
   std::vector<double> joints;
+  std::vector<double> rotors = {};  ///< of motors of joints with play
 };
 
 /// World pose and velocity of every link frame. Only the constructor allocates.

@@ -11,6 +11,8 @@
 #include "core/model/body_pairs.h"
 #include "core/model/frames.h"
 #include "core/model/passive.h"
+#include "core/model/play.h"
+#include "core/model/supply.h"
 #include "core/names.h"
 
 namespace gaitlab {
@@ -50,6 +52,7 @@ struct HingeType {
   Vec3 axis = Vec3::UnitY();            ///< unit vector, hinge frame
   double lo = 0, hi = 0;                ///< rad; -kNoStop and kNoStop if the hinge turns freely
   std::optional<Passive> passive = {};  ///< set for `drive: none`; empty if a motor drives the hinge
+  Play play = {};                       ///< of the gear of its motor
 };
 
 /// Gender of a face. An active face docks on a passive face. A face without gender (none) docks on another face without gender.
@@ -95,6 +98,7 @@ struct ModuleType {
   std::map<std::string, Connector> connectors = {};  ///< connectors of the faces with known loads, by name
   std::vector<ContactType> feet, all;                ///< feet: used for `on: feet` if on a free body; all: used for `on: all`
   std::vector<BodyPair> may_overlap = {};            ///< bodies that are not compared for collisions
+  Battery battery = {};                              ///< of the motors of each module; voltage 0 without one
   std::size_t root = 0;                              ///< body that is not the child of a hinge; its frame is the module frame
 };
 

@@ -32,6 +32,7 @@ struct Joint {
   std::size_t link = 0;   ///< link that the joint moves
   double lo = 0, hi = 0;  ///< rad or +-kNoStop; positive: right-hand turn of the outer body relative to the inner body
   std::optional<Passive> passive = {};  ///< set if the joint has no motor
+  Play play = {};                       ///< of the gear of its motor
   [[nodiscard]] bool driven() const { return !passive; }
   [[nodiscard]] bool turns_freely() const { return hi == kNoStop; }
 };
@@ -103,6 +104,9 @@ struct EnumNames<ContactSet> {
   using enum ContactSet;
   static constexpr EnumName<ContactSet> kTable[] = {{none, "none"}, {feet, "feet"}, {all, "all"}};
 };
+
+/// Joints whose gears have play, in ascending order.
+std::vector<std::size_t> joints_with_play(const Robot& robot);
 
 /// Builds the robot from `type_of_module` (index into types, one per module) and the docks. Throws one InputError with all
 /// problems, each at its row. Problems of a dock are a wrong gender, connectors that differ, a face used twice, an unknown

@@ -14,6 +14,8 @@ struct PositionGains {
   const char* key = "Kp";      ///< key that states P
   const char* unit = "";       ///< unit of that key
   double per_key = 1;          ///< P per unit of that key
+  const char* key_of_D = "Kd";
+  const char* unit_of_D = "";
   static constexpr double infinity = std::numeric_limits<double>::infinity();
 };
 
@@ -27,6 +29,7 @@ class Controller {
   [[nodiscard]] virtual std::string_view command_unit() const = 0;
   [[nodiscard]] virtual std::size_t states() const { return 0; }
   virtual void start(Out) const {}
+  [[nodiscard]] virtual std::string note() const { return {}; }  ///< one line for the user about the set-up
   /// By joint; empty if the law is of another kind.
   [[nodiscard]] virtual std::vector<PositionGains> gains() const { return {}; }
   /// Every span except x has one entry per joint. `command_limit` is Actuator::command_limit(), in the unit of the command

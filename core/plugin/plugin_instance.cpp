@@ -86,6 +86,9 @@ class GuardedController final : public Controller {
   [[nodiscard]] std::vector<PositionGains> gains() const override {
     return guarded(entry_, "gains", [&] { return controller_->gains(); });
   }
+  [[nodiscard]] std::string note() const override {
+    return guarded(entry_, "note", [&] { return controller_->note(); });
+  }
 
  private:
   const Entry& entry_;

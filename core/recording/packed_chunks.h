@@ -14,8 +14,9 @@ using TakeChunk = std::function<void(std::size_t row, std::size_t column, std::s
 
 /// Calls `take` for every chunk of `rows` values of one column, by row, then column. A chunk contains the lowest bytes of all
 /// values, then their second bytes, and so on (shuffle), with zeros after the last row of the table. It is compressed in the
-/// format of zlib, by libdeflate at a fixed level. A chunk that gzip does not shrink has stored blocks. The same table gives
-/// the same bytes with one version of libdeflate. Throws std::bad_alloc, and exceptions of `take`.
+/// format of zlib, by libdeflate at a fixed level. Lowest bytes that are noise, and chunks that gzip does not shrink, are
+/// stored blocks. The same table gives the same bytes with one version of libdeflate. Throws std::bad_alloc, and exceptions of
+/// `take`.
 void pack_chunks(const Trace& table, std::size_t rows, const TakeChunk& take);
 
 /// A packed chunk as stored in a file. HDF5 only shuffles a chunk that gzip would not shrink.

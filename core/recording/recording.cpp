@@ -21,7 +21,6 @@ const std::vector<std::string>& report_columns() {
                                                   "joint.*.measured",
                                                   "joint.*.torque",
                                                   "joint.*.saturation",
-                                                  "joint.*.logged_*",
                                                   "base.?",
                                                   "base.q?",
                                                   "com.?",
@@ -177,21 +176,27 @@ void halve_ticks(Trace& ticks) {
   ticks.values.resize(kept * columns);
 }
 
-std::vector<Column> supply_columns() {
-  return {{"t", "s", "time"},
-          {"voltage_least", "V", "least voltage of the bus since the previous row"},
-          {"current_peak", "A", "largest current of the supply since the previous row"},
-          {"held", "", "0 if no voltage satisfied the law of the bus since the previous row"},
-          {"charge", "A s", "charge drawn from t = 0"},
-          {"current_square", "A^2 s", "integral of current^2 from t = 0"}};
+std::vector<Column> supply_columns(const std::vector<std::string>& modules) {
+  std::vector<Column> all{{"t", "s", "time"}};
+  for (const std::string& module : modules) {
+    const auto add = [&](const char* name, const char* unit, const char* definition) {
+      all.push_back({module.empty() ? name : fmt::format("{}.{}", module, name), unit, definition});
+    };
+    add("voltage_least", "V", "least voltage of the bus since the previous row");
+    add("current_peak", "A", "largest current of the supply since the previous row");
+    add("held", "", "0 if no voltage satisfied the law of the bus since the previous row");
+    add("charge", "A s", "charge drawn from t = 0");
+    add("current_square", "A^2 s", "integral of current^2 from t = 0");
+  }
+  return all;
 }
 
 void keep_worst(const ColumnList& columns, In before, Out now) {
   for (std::size_t c = 0; c < columns.size(); ++c) {
     const std::string& name = columns[c].name;
-    const bool worse = name == "stability" || name == "voltage_least" || name == "held"
+    const bool worse = name == "stability" || name.ends_with("voltage_least") || name.ends_with("held")
                            ? before[c] < now[c] || (std::isnan(now[c]) && !std::isnan(before[c]))
-                       : name == "current_peak"                                   ? before[c] > now[c]
+                       : name.ends_with("current_peak")                           ? before[c] > now[c]
                        : !name.starts_with("dock.") && !name.starts_with("gear.") ? false
                        : name.ends_with(".tension")                               ? before[c] > now[c]
                                                                                   : std::abs(before[c]) > std::abs(now[c]);

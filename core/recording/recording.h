@@ -53,6 +53,10 @@ enum TickColumn : std::size_t {
   kTickColumns
 };
 
+/// Columns of the first bus in Recording::supply, after the column t. Those of each further bus follow.
+enum SupplyColumn : std::size_t { kLeastVoltage = 1, kLargestCurrent, kHeld, kCharge, kBusSquare };
+inline constexpr std::size_t kBusColumns = kBusSquare;  ///< per bus
+
 /// Recording of one rollout.
 struct Recording {
   /// Rows at every trace tick and at the end, or every k-th of these rows (see thin_rows). `trace` has the columns that
@@ -100,6 +104,12 @@ struct Recording {
   [[nodiscard]] Series series(const std::string& column) const;
   /// Column `joint.N.QUANTITY`, where QUANTITY is angle, setpoint or torque.
   [[nodiscard]] Series joint(std::size_t number, const char* quantity) const;
+  /// Number of buses in `supply`.
+  [[nodiscard]] std::size_t buses() const { return supply.columns.empty() ? 0 : (supply.columns.size() - 1) / kBusColumns; }
+  /// Number in a row of `supply`.
+  [[nodiscard]] double bus(std::size_t row, std::size_t number, SupplyColumn column) const {
+    return supply.at(row, number * kBusColumns + column);
+  }
   /// A column of `poses` by name; empty if the column does not exist.
   [[nodiscard]] Series pose(const std::string& column) const;
   /// Centre of mass at the time of a row.
@@ -134,9 +144,8 @@ std::optional<AllRows> thin_rows(Recording& r, std::size_t most = kMostInMemory)
 /// Columns of Recording::ticks and of Recording::poses for `joints` joints.
 std::vector<Column> tick_columns(std::size_t joints);
 std::vector<Column> pose_columns(std::size_t joints);
-/// Columns of Recording::supply after the column t.
-enum SupplyColumn : std::size_t { kLeastVoltage = 1, kLargestCurrent, kHeld, kCharge, kBusSquare };
-std::vector<Column> supply_columns();
+/// Columns of Recording::supply, for the buses of these modules (`m3`; "" for the scenario's supply).
+std::vector<Column> supply_columns(const std::vector<std::string>& modules = {""});
 /// Merges each pair of rows after the first row into the later one, with the larger peaks of both.
 void halve_ticks(Trace& ticks);
 /// Merges each pair of rows after the first row into the later one by keep_worst().

@@ -45,7 +45,7 @@ void each_number(OfRecording& r, Visit visit) {
   visit("control_ticks", "", "control ticks", r.control_ticks);
   visit("control_ticks_above_1", "", "control ticks at which h lambda exceeded 1", r.control_ticks_above_1);
   visit("stability.rate", "1/s", "largest lambda seen at a control tick", r.worst.rate);
-  visit("stability.source", "", "source of that lambda: 0 motor, 1 stop, 2 contact, 3 passive hinge", r.worst.source);
+  visit("stability.source", "", "source of that lambda: 0 motor, 1 stop, 2 contact, 3 passive hinge, 4 play", r.worst.source);
   visit("stability.index", "", "number of that joint or contact element", r.worst.index);
   visit("stability.time", "s", "time of that tick", r.worst_time);
   visit("energy.electrical", "J", "energy drawn by the motors", r.ledger.electrical);
@@ -140,7 +140,7 @@ void take_numbers(const fs::path& file, const Trace& joints, const Trace& run, R
     // Largest value of a flag, an enum, or a count. A double contains counts exactly up to 2^53.
     constexpr double kMost = std::is_same_v<Number, bool>    ? 1
                              : std::is_same_v<Number, Ended> ? static_cast<double>(enum_names<Ended>().size() - 1)
-                             : std::is_enum_v<Number>        ? 3
+                             : std::is_enum_v<Number>        ? 4
                                                              : 0x1p53;
     if (!std::is_floating_point_v<Number> && !(read >= 0 && read <= kMost))
       throw unfit(file, fmt::format("{} is {}", name, read));
@@ -160,7 +160,13 @@ void require_rows_of_ticks(const fs::path& file, const Recording& r, const Trace
 void check_supply(const fs::path& file, const Recording& r) {
   if (r.supply.columns.empty()) return;
   const auto same = [](const Column& a, const Column& b) { return a.name == b.name; };
-  if (!std::ranges::equal(r.supply.columns, supply_columns(), same)) {
+  std::vector<std::string> modules;
+  for (std::size_t bus = 0; bus < r.buses(); ++bus) {
+    const std::string& first = r.supply.columns[1 + bus * kBusColumns].name;
+    const std::size_t dot = first.find('.');
+    modules.push_back(dot == std::string::npos ? "" : first.substr(0, dot));
+  }
+  if (!std::ranges::equal(r.supply.columns, supply_columns(modules), same)) {
     throw unfit(file, "the columns of /recording/supply are not those of a supply");
   }
   require_rows_of_ticks(file, r, r.supply, "supply");

@@ -91,8 +91,8 @@ struct StepTally {
 /// explicit integrator is stable for h lambda <= 1.
 struct Stability {
   double rate = 0;
-  enum class Source { motor, stop, contact, hinge } source = Source::motor;
-  std::size_t index = 0;  ///< joint (motor, stop, passive hinge) or contact element
+  enum class Source { motor, stop, contact, hinge, play } source = Source::motor;
+  std::size_t index = 0;  ///< joint (motor, stop, passive hinge, play) or contact element
 };
 
 }  // namespace gaitlab

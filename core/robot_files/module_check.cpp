@@ -160,6 +160,10 @@ class ModuleCheck {
       if (!(hinge.lo < hinge.hi)) {
         problems_.add(place_of(map, "range"), fmt::format("range is {} to {} rad; expected the smaller angle first",
                                                           number_text(hinge.lo), number_text(hinge.hi)));
+      } else if (hinge.play.width >= hinge.hi - hinge.lo) {
+        problems_.add(place_of(map, "play"),
+                      fmt::format("play is {} rad, and the range of hinge '{}' {} rad; expected less play than range",
+                                  number_text(hinge.play.width), hinge.name, number_text(hinge.hi - hinge.lo)));
       }
     }
   }

@@ -33,6 +33,7 @@ class ModuleReader {
     check_name(document_.find("name"));
     type_.name = keys.name;
     type_.lattice = keys.lattice;
+    type_.battery = keys.battery;
     each(document_, "bodies", keys.bodies, &ModuleReader::add_body);
     each(document_, "hinges", keys.hinges, &ModuleReader::add_hinge);
     each(document_, "faces", keys.faces, &ModuleReader::add_face);
@@ -107,7 +108,9 @@ class ModuleReader {
     keys.in_parent = {rpy(keys.turn), keys.origin};
     keys.lo = keys.free ? -kNoStop : keys.range[0];
     keys.hi = keys.free ? kNoStop : keys.range[1];
+    keys.play.encoder_at_motor = keys.encoder == HingeKeys::Encoder::motor;
     check_drive(node, keys);
+    check_play(node, keys);
     if (keys.drive == HingeKeys::Drive::none) keys.passive = keys.spring;
     type_.hinges.emplace_back(keys);
     places_.hinges.push_back(node);
@@ -134,6 +137,23 @@ class ModuleReader {
       problems_.add(own->place, fmt::format("{0} is only for a hinge without a motor, and this hinge has one; add drive: none, "
                                             "or remove {0}",
                                             key));
+    }
+  }
+
+  /// Checks that only a gear with play has the keys of play.
+  void check_play(const Node& node, const HingeKeys& keys) {
+    const bool motor = keys.drive == HingeKeys::Drive::motor;
+    for (const char* key : {"play", "play_stiffness", "encoder"}) {
+      const Node* const own = node.find(key);
+      if (own == nullptr) continue;
+      if (!motor) {
+        problems_.add(own->place, fmt::format("hinge '{}' has {} and drive: none; expected one of them, because play is that "
+                                              "of a motor's gear",
+                                              keys.name, key));
+      } else if (node.find("play") == nullptr) {
+        problems_.add(own->place,
+                      fmt::format("hinge '{}' has {}, but no play; add play, in rad, or remove {}", keys.name, key, key));
+      }
     }
   }
 

@@ -68,6 +68,7 @@ void SpringKeys::fields(Fields& f) {
 
 void HingeKeys::fields(Fields& f) {
   static constexpr const char* kDrives[] = {"motor", "none"};
+  static constexpr const char* kEncoders[] = {"output", "motor"};
   source_field(f, source);
   required(f).text("name", name, "Name of the hinge and of its joint.");
   required(f).text("parent", of_parent, "A body's name.");
@@ -77,6 +78,13 @@ void HingeKeys::fields(Fields& f) {
   Marked(f, Need::required, "free", &free)
       .vector("range", range, any("rad", "Smallest and largest angle, outside which a stop acts; free: continuous rotation."));
   f.choice("drive", drive, kDrives, "motor, or none for a passive hinge.");
+  f.number("play", play.width,
+           {"rad", 0, 1,
+            "Lost motion between the geared motor and the child, from one flank of the gear to the other. Needs an inertia of "
+            "the rotor."});
+  f.number("play_stiffness", play.stiffness, {"N m/rad", kPositive, 1e6, "Stiffness of the flanks of a gear with play."});
+  f.choice("encoder", encoder, kEncoders,
+           "Place of encoder and controller's measurement in a gear with play: output, the child, or motor.");
   spring.fields(f);
   optional(f).other("actuator", kPluginMap, "Keys of the motor that differ from the module type's actuator.");
   optional(f).other("controller", kPluginMap, "Keys of the controller that differ from the module type's controller.");
@@ -136,6 +144,8 @@ void ModuleKeys::fields(Fields& f) {
   f.other(kMayOverlap, kPairs,
           "Pairs [BODY, BODY] that the check collision leaves out, by names or patterns; for other pairs, the overlap with all "
           "hinges at 0 is by design.");
+  f.group("battery", battery,
+          "Battery of the motors of each module of this type, which then do not use the scenario's supply.");
   optional(f).other("actuator", kPluginMap,
                     "Motor of every driven hinge: type, and keys of that actuator (gaitlab explain actuator TYPE).");
   optional(f).other("controller", kPluginMap,

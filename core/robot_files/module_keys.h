@@ -36,6 +36,7 @@ struct HingeKeys : HingeType {
   std::array<double, 2> range = {};
   bool free = false;
   enum class Drive { motor, none } drive = Drive::motor;
+  enum class Encoder { output, motor } encoder = Encoder::output;
   SpringKeys spring;
   void fields(Fields& f);
 };
@@ -74,6 +75,7 @@ struct ModuleKeys {
   std::vector<FaceKeys> faces;
   ContactsKeys contacts;
   std::vector<ConnectorKeys> connectors;
+  Battery battery;
   void fields(Fields& f);
 };
 

@@ -24,54 +24,103 @@ constexpr std::array kServoSections{"actuator", "controller"};
 
 Node* find(Node& map, const std::string& key) { return const_cast<Node*>(std::as_const(map).find(key)); }
 
+/// A document that names servos, and what is found on the way.
+struct Search {
+  const std::string& folder;  ///< of the document
+  Problems& problems;
+  std::vector<Problem>& notes;
+};
+
 /// Path of the file that `name` means; adds a problem and returns "" if there is none.
-std::string path_of(const Node& name, const std::string& folder, Problems& problems) {
+std::string path_of(const Node& name, const Search& search) {
+  const auto& [folder, problems, notes] = search;
   const std::string& text = name.text;
   if (text.find('/') != std::string::npos || text.ends_with(".yaml")) return path_from(folder, text);
   if (const auto file =
           file_of_name({path_from(folder, "servos/" + text + ".yaml"), path_from(folder, "../servos/" + text + ".yaml")},
-                       data_folder() + "/servos/" + text + ".yaml"))
+                       data_folder() + "/servos/" + text + ".yaml")) {
+    std::string hidden = note_of_hidden(text, *file);
+    if (!hidden.empty() && std::ranges::find(notes, hidden, &Problem::text) == notes.end())
+      notes.push_back({name.place, std::move(hidden)});
     return file->path;
+  }
   std::vector<std::string> known;
   for (const auto& [servo, path] : shipped_files("servo")) known.push_back(servo);
   problems.add(name.place, "no servo " + in_quotes(text) + offer(text, known, "servos"));
   return {};
 }
 
-/// The map `section` of a servo file, and the file's source.
-struct ServoKeys {
-  Node keys;
-  std::string source;
+constexpr std::array kKinds{"data sheet", "identified", "chosen"};  // in the order of ServoFigure
+
+/// Keys of an entry of `sources`.
+struct SourceKeys : ServoSource {
+  void fields(Fields& f) {
+    Marked required(f, Need::required);
+    required.texts("of", of, "Keys of actuator and controller that have this source.");
+    required.choice("kind", kind, kKinds, "Origin of the numbers.");
+    required.text("text", text, "Document, or logs and method.");
+  }
 };
 
-/// Nothing, with a problem, if the file is wrong; no keys if it has no such section.
-std::optional<ServoKeys> read_servo(const std::string& path, const std::string& section, const SourceLocation& asked_at,
-                                    Problems& problems) {
-  expect_kind(path, FileKind::servo);
-  const Node file = read_yaml(path, asked_at);
-  const std::size_t before = problems.size();
-  Reader reader(file, "servo file", problems, nullptr);
-  reader.version("gaitlab_servo");
-  std::string own_name;
-  ServoKeys servo;
-  reader.text("name", own_name, "");
-  reader.text("source", servo.source, "");
-  reader.require({"name", "source", "actuator"});
-  for (const char* const one : kServoSections) reader.take(one);
-  reader.finish();
-  if (problems.size() > before) return {};
+/// The keys of a map except `type`, with their places.
+std::vector<std::pair<std::string, SourceLocation>> figures(const Node& map) {
+  std::vector<std::pair<std::string, SourceLocation>> keys;
+  std::ranges::copy_if(map.keys, std::back_inserter(keys), [](const auto& key) { return key.first != "type"; });
+  return keys;
+}
+
+/// Requires exactly one source for each number of the file.
+void check_sources(const Node& list, const ServoFile& servo, Problems& problems) {
+  std::vector<std::string> known, sourced;
+  auto keys = figures(servo.actuator);
+  const auto of_controller = figures(servo.controller);
+  keys.insert(keys.end(), of_controller.begin(), of_controller.end());
+  for (const auto& [key, place] : keys) known.push_back(key);
+  for (const Node& source : list.items) {
+    for (const Node& of : source.find("of")->items) {
+      if (std::ranges::count(known, of.text) == 0) {
+        problems.add(of.place, fmt::format("the file states no {}{}", in_quotes(of.text), offer(of.text, known, "keys")));
+      } else if (std::ranges::count(sourced, of.text) > 0) {
+        problems.add(of.place, fmt::format("{} has two sources; expected one", in_quotes(of.text)));
+      }
+      sourced.push_back(of.text);
+    }
+  }
+  for (const auto& [key, place] : keys) {
+    if (std::ranges::count(sourced, key) == 0)
+      problems.add(place, fmt::format("{} has no source; expected its name in an `of` of sources", in_quotes(key)));
+  }
+}
+
+/// One text for all sources, chosen numbers first. The first source is printed without its keys.
+std::string together(const std::vector<ServoSource>& sources) {
+  std::string text;
+  const auto add = [&](const ServoSource& source) {
+    const std::string keys = fmt::format("{}", fmt::join(source.of, ", "));
+    const bool own = source.kind == ServoFigure::chosen;
+    text += fmt::format("{}{}{}", text.empty() ? "" : "; ", own ? "chosen: " : "", text.empty() && !own ? "" : keys + ": ");
+    text += source.text;
+  };
+  for (const ServoSource& source : sources) {
+    if (source.kind == ServoFigure::chosen) add(source);
+  }
+  for (const ServoSource& source : sources) {
+    if (source.kind != ServoFigure::chosen) add(source);
+  }
+  return text;
+}
+
+/// Takes the map `section` of a servo file.
+Node map_of(const Node& file, const char* section, Problems& problems) {
   const Node* const found = file.find(section);
-  if (found == nullptr) return servo;
+  if (found == nullptr) return {};
   if (found->kind != Node::Kind::map) {
     problems.add(found->place, fmt::format("{} is {}; expected a map", section, gaitlab::found(*found)));
     return {};
   }
-  if (const Node* const nested = found->find(kServoModel)) {
+  if (const Node* const nested = found->find(kServoModel))
     problems.add(nested->place, "a servo file cannot name another one; expected the keys themselves");
-    return {};
-  }
-  servo.keys = *found;
-  return servo;
+  return *found;
 }
 
 /// Keys that exclude each other: a stated one takes the place of the other in a servo file.
@@ -103,7 +152,8 @@ void remove(Node& map, const Node* value) {
 }
 
 /// `of_hinge`: the map is that of a hinge, whose type is that of the module.
-void insert(Node& map, const std::string& section, bool of_hinge, const std::string& folder, Problems& problems) {
+void insert(Node& map, const std::string& section, bool of_hinge, const Search& search) {
+  const auto& [folder, problems, notes] = search;
   const Node* const model = map.find(kServoModel);
   if (model == nullptr) return;
   const Node name = *model;
@@ -113,23 +163,24 @@ void insert(Node& map, const std::string& section, bool of_hinge, const std::str
     problems.add(name.place, fmt::format("model is {}; expected the name of a servo (gaitlab list servo)", found(name)));
     return;
   }
-  const std::string path = path_of(name, folder, problems);
+  const std::string path = path_of(name, search);
   if (path.empty()) return;
   Problems found_in_file;
-  std::optional<ServoKeys> servo;
+  std::optional<ServoFile> servo;
   try {
-    servo = read_servo(path, section, name.place, found_in_file);
+    servo = read_servo(path, name.place, found_in_file);
   } catch (const InputError& error) {
     add_all(error, found_in_file);
   }
   add_found(found_in_file, {path, folder, "servo file", "gaitlab_servo"}, problems);
   if (!servo) return;
-  if (servo->keys.kind == Node::Kind::null) {
+  const Node& keys = section == kServoSections[0] ? servo->actuator : servo->controller;
+  if (keys.kind == Node::Kind::null) {
     problems.add(name.place, fmt::format("servo {} has no {}", in_quotes(name.text), section));
     return;
   }
   const Node* const type = map.find("type");
-  const Node* const own = servo->keys.find("type");
+  const Node* const own = keys.find("type");
   if (type != nullptr && own != nullptr && type->text != own->text) {
     Problem& problem = problems.add(name.place, fmt::format("servo {} is for {} {}, not {}", in_quotes(name.text), section,
                                                             in_quotes(own->text), in_quotes(type->text)));
@@ -141,10 +192,10 @@ void insert(Node& map, const std::string& section, bool of_hinge, const std::str
     if (key != "type" && key != "source") stated_keys.push_back(key);
   }
   const Node before = map;
-  for (std::size_t i = 0; i < servo->keys.items.size(); ++i) {
-    const std::string& key = servo->keys.keys[i].first;
+  for (std::size_t i = 0; i < keys.items.size(); ++i) {
+    const std::string& key = keys.keys[i].first;
     if (stated(before, key) || (of_hinge && key == "type")) continue;
-    put(map, at++, key, servo->keys.items[i]);
+    put(map, at++, key, keys.items[i]);
   }
   if (section != kServoSections[0]) return;
   const Node* const source = map.find("source");
@@ -155,22 +206,58 @@ void insert(Node& map, const std::string& section, bool of_hinge, const std::str
   put(map, map.items.size(), "source", std::move(text));
 }
 
-void insert_all(Node& document, bool of_hinge, const std::string& folder, Problems& problems) {
+void insert_all(Node& document, bool of_hinge, const Search& search) {
   for (const char* const section : kServoSections) {
     Node* const map = find(document, section);
     if (map == nullptr || map->kind != Node::Kind::map) continue;
-    insert(*map, section, of_hinge, folder, problems);
+    insert(*map, section, of_hinge, search);
   }
 }
 
 }  // namespace
 
-void insert_servos(Node& document, const std::string& folder, Problems& problems) {
-  insert_all(document, false, folder, problems);
+const ServoSource* ServoFile::source_of(const std::string& key) const {
+  const auto at = std::ranges::find_if(sources, [&](const ServoSource& one) { return std::ranges::count(one.of, key) > 0; });
+  return at == sources.end() ? nullptr : &*at;
+}
+
+std::optional<ServoFile> read_servo(const std::string& path, const SourceLocation& asked_at, Problems& problems) {
+  expect_kind(path, FileKind::servo);
+  const Node file = read_yaml(path, asked_at);
+  const std::size_t before = problems.size();
+  Reader reader(file, "servo file", problems, nullptr);
+  reader.version("gaitlab_servo");
+  ServoFile servo;
+  std::vector<SourceKeys> sources;
+  reader.text("name", servo.name, "");
+  reader.text("source", servo.source, "");
+  reader.list("sources", sources, "");
+  reader.require({"name", "actuator"});
+  const Node* const list = file.find("sources");
+  if (list == nullptr) {
+    reader.require({"source"});
+  } else if (const Node* const source = file.find("source")) {
+    problems.add(source->place, "source and sources are both stated; expected one of them");
+  }
+  for (const char* const one : kServoSections) reader.take(one);
+  reader.finish();
+  if (problems.size() > before) return {};
+  servo.actuator = map_of(file, kServoSections[0], problems);
+  servo.controller = map_of(file, kServoSections[1], problems);
+  if (list != nullptr) check_sources(*list, servo, problems);
+  if (problems.size() > before) return {};
+  servo.sources.assign(sources.begin(), sources.end());
+  if (list != nullptr) servo.source = together(servo.sources);
+  return servo;
+}
+
+void insert_servos(Node& document, const std::string& folder, Problems& problems, std::vector<Problem>& notes) {
+  const Search search{folder, problems, notes};
+  insert_all(document, false, search);
   Node* const hinges = find(document, "hinges");
   if (hinges == nullptr) return;
   for (Node& hinge : hinges->items) {
-    if (hinge.kind == Node::Kind::map) insert_all(hinge, true, folder, problems);
+    if (hinge.kind == Node::Kind::map) insert_all(hinge, true, search);
   }
 }
 

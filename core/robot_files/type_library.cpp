@@ -146,7 +146,7 @@ std::optional<std::size_t> TypeLibrary::read_file(const std::string& path, const
 std::optional<std::size_t> TypeLibrary::read(const Node& document, bool versioned, Problems& problems) {
   const std::size_t before = problems.size();
   Node whole = document;
-  insert_servos(whole, folder_, problems);
+  insert_servos(whole, folder_, problems, notes);
   ModuleType type = read_module(whole, versioned, problems);
   if (problems.size() != before) return {};
   types.push_back(std::move(type));

@@ -13,6 +13,9 @@
 namespace gaitlab {
 namespace {
 
+constexpr const char* kByDefault = "chosen: ";
+constexpr const char* kRest = "; the rest: ";
+
 const Node* map_of(const Node& of, Kind kind) {
   const Node* map = of.find(word(kind));
   return map != nullptr && map->kind == Node::Kind::map ? map : nullptr;
@@ -120,7 +123,18 @@ std::vector<DefaultFigure> default_figures(const Entry& entry) {
 }
 
 std::string by_default(const std::vector<std::string>& keys, const Entry& entry) {
-  return fmt::format("chosen: {} by default of {}", fmt::join(keys, ", "), entry.name);
+  return fmt::format("{}{} by default of {}", kByDefault, fmt::join(keys, ", "), entry.name);
+}
+
+std::string with_defaults(const std::vector<std::string>& keys, const Entry& entry, const std::string& source) {
+  return by_default(keys, entry) + kRest + source;
+}
+
+std::string without_defaults(const std::string& source, const Entry& entry) {
+  const std::string end = by_default({}, entry).substr(std::string_view(kByDefault).size()) + kRest;
+  const std::size_t at = source.find(end);
+  const bool listed = at != std::string::npos && source.starts_with(kByDefault) && source.find(';') == at + end.find(';');
+  return listed ? source.substr(at + end.size()) : source;
 }
 
 std::vector<const Node*> preset_maps(const Node& document, Kind kind) {

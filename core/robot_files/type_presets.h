@@ -29,6 +29,10 @@ std::vector<DefaultFigure> default_figures(const Entry& entry);
 
 /// Text such as `chosen: R, Kt by default of dc_motor`, for values that are plugin defaults instead of values of a real motor.
 std::string by_default(const std::vector<std::string>& keys, const Entry& entry);
+/// Source of values some of which are defaults: `chosen: R, Kt by default of dc_motor; the rest: a data sheet`.
+std::string with_defaults(const std::vector<std::string>& keys, const Entry& entry, const std::string& source);
+/// The source without such defaults, with which the resolved scenario of a run begins it.
+std::string without_defaults(const std::string& source, const Entry& entry);
 
 /// False, with a problem at each place, if module types name actuators or controllers that do not exist and the scenario does
 /// not name one instead. The keys are then unknown.

@@ -6,6 +6,7 @@
 
 #include "core/laws/data_sheet.h"
 #include "core/laws/motor_bank.h"
+#include "core/scenario/buses.h"
 #include "core/settings/wording.h"
 
 namespace gaitlab {
@@ -73,7 +74,8 @@ class BuiltMotors final : public MotorBank {
         const MotorBuild build = motor_build(lanes[l]->as_built, j);
         DcMotor motor = drawn.dc_motors()[i];
         if (motor.reversal_speed > 0 && implicit(*lanes[l])) motor = with_jump(motor);
-        if (const double supply = lanes[l]->supply.voltage; supply > 0 && !(limits[l].u_max[j] > 0)) motor.u_max = supply;
+        if (const double supply = supply_of(*lanes[l], j).voltage; supply > 0 && !(limits[l].u_max[j] > 0))
+          motor.u_max = supply;
         add(build == MotorBuild() ? motor : built(motor, build, !(limits[l].i_max[j] > 0)), inertia.empty() ? 0 : inertia[i],
             ratings.empty() ? DriveRatings() : ratings[i], friction.empty() ? JointFriction() : built(friction[i], build));
       }
@@ -99,7 +101,7 @@ std::unique_ptr<Actuator> make_motors(std::span<const Scenario* const> lanes) {
   for (const Scenario* lane : lanes) selections.push_back(&lane->actuator);
   std::unique_ptr<Actuator> drawn = make_actuator(selections, info(*lanes[0]->robot));
   const bool differ =
-      std::ranges::any_of(lanes, [](const Scenario* lane) { return motors_differ(lane->as_built) || lane->supply.any(); });
+      std::ranges::any_of(lanes, [](const Scenario* lane) { return motors_differ(lane->as_built) || !buses(*lane).empty(); });
   if (drawn == nullptr || drawn->dc_motors() == nullptr) return drawn;
   const std::span<const DcMotor> motors(drawn->dc_motors(), lanes[0]->robot->joints.size() * lanes.size());
   const bool jump = implicit(*lanes[0]) && std::ranges::any_of(motors, [](const DcMotor& m) { return m.reversal_speed > 0; });

@@ -11,6 +11,7 @@
 #include "core/scenario/sections.h"
 #include "core/scenario/sensor_checks.h"
 #include "core/scenario/sensor_section.h"
+#include "core/settings/explainer.h"
 #include "core/settings/joint_patterns.h"
 #include "core/settings/overlay.h"
 #include "core/settings/wording.h"
@@ -137,7 +138,7 @@ class ChangeReader {
     if (problems_.size() > before) return;
     const Scenario after = read_(root_, sections_, problems_);
     if (problems_.size() > before) return;
-    check_states(after, set.place);
+    check_states(after, set);
     change.cpg = after.cpg;
     change.controller = after.controller;
   }
@@ -160,21 +161,34 @@ class ChangeReader {
                        near.empty() ? "" : "; did you mean " + in_quotes(near + key.substr(section.size())) + "?");
   }
 
+  /// Meaning of a key that `set` changes alone, ` (latency: Time from ...)`; empty for several keys.
+  static std::string meaning(const Node& set, const PluginSelection& plugin) {
+    if (set.keys.size() != 1) return "";
+    Explainer settings;
+    visit_settings(*plugin.entry, plugin.settings.get(), settings);
+    const std::string& path = set.keys.front().first;
+    for (const KeyRow& row : settings.rows()) {
+      if (!(path + ".").starts_with(fmt::format("{}.{}.", word(plugin.entry->kind), row.key))) continue;
+      return fmt::format(" ({}: {})", row.key, row.about.substr(0, row.about.size() - 1));
+    }
+    return "";
+  }
+
   /// Checks that CPG and controller have the same states as at the start, because the run continues with these states.
-  void check_states(const Scenario& after, const SourceLocation& place) {
+  void check_states(const Scenario& after, const Node& set) {
     const RobotInfo robot = plugin_info(scenario_);
-    const auto check = [&](const char* what, std::size_t first, std::size_t now) {
+    const auto check = [&](const char* what, const PluginSelection& plugin, std::size_t first, std::size_t now) {
       if (first == now) return;
-      problems_.add(place, fmt::format("set changes the {}'s {} to {}; expected settings that keep the number of states", what,
-                                       counted(first, "state"), now));
+      problems_.add(set.place, fmt::format("set changes the {}'s {} to {}{}; expected settings that keep the number of states",
+                                           what, counted(first, "state"), now, meaning(set, plugin)));
     };
     const auto states = [](const auto& plugin) { return plugin == nullptr ? 0 : plugin->states(); };
     try {
-      check("CPG", states(make_cpg(scenario_.cpg, robot)), states(make_cpg(after.cpg, robot)));
-      check("controller", states(make_controller(scenario_.controller, robot)),
+      check("CPG", after.cpg, states(make_cpg(scenario_.cpg, robot)), states(make_cpg(after.cpg, robot)));
+      check("controller", after.controller, states(make_controller(scenario_.controller, robot)),
             states(make_controller(after.controller, robot)));
     } catch (const PluginError& error) {
-      problems_.add(place, error.what());
+      problems_.add(set.place, error.what());
     }
   }
 

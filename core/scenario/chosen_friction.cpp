@@ -50,7 +50,9 @@ std::string times_chosen(const Scenario& scenario, const std::string& key, doubl
 
 std::vector<std::string> without_chosen_friction(const Scenario& scenario) {
   std::vector<std::string> sets;
+  const bool plays = !joints_with_play(*scenario.robot).empty();
   for (const char* const key : kChosenFriction) {
+    if (plays && std::string_view(key) == "rotor_inertia") continue;  // a motor within its play needs it
     if (std::string set = times_chosen(scenario, key, 0); !set.empty()) sets.push_back(std::move(set));
   }
   return sets;

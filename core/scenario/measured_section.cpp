@@ -7,7 +7,6 @@
 #include <limits>
 #include <optional>
 #include <stdexcept>
-#include <string_view>
 #include <utility>
 
 #include "core/files/csv_table.h"
@@ -192,16 +191,12 @@ void MeasuredSettings::fields(Fields& f) {
 }
 
 bool MeasuredSettings::reads(const std::string& column) const {
-  if (!any() || !column.starts_with("joint.")) return false;
-  return std::ranges::any_of(log->joints, [&](const MeasuredLog::OfJoint& of) {
-    const std::string start = fmt::format("joint.{}.", of.joint);
-    if (!column.starts_with(start)) return false;
-    const std::string_view quantity = std::string_view(column).substr(start.size());
-    if (quantity == "voltage_command") return !of.of(Logged::duty).empty();
-    return std::ranges::any_of(kKinds,
-                               [&](const LoggedKind& kind) { return quantity == kind.column && !of.of(kind.kind).empty(); }) ||
-           (quantity == "speed" && !of.of(Logged::angle).empty());
-  });
+  return any() && std::ranges::any_of(log->joints, [&](const MeasuredLog::OfJoint& of) {
+           const auto is = [&](const char* quantity) { return column == fmt::format("joint.{}.{}", of.joint, quantity); };
+           const auto compared = [&](const LoggedKind& kind) { return !of.of(kind.kind).empty() && is(kind.column); };
+           return std::ranges::any_of(kKinds, compared) || (!of.of(Logged::duty).empty() && is("voltage_command")) ||
+                  (!of.of(Logged::angle).empty() && is("speed"));
+         });
 }
 
 void finish_measured(const Node& node, Scenario& scenario, Problems& problems) {

@@ -26,7 +26,7 @@ ReplacedMotors::ReplacedMotors(const Node& root, const Scenario& scenario, const
   }
   for (const auto& [key, place] : section == nullptr ? std::vector<std::pair<std::string, SourceLocation>>() : section->keys)
     given_ = given_ || (key != "type" && key != "source");
-  if (!source_.empty() && !assumed.empty()) source_ = by_default(assumed, entry) + "; the rest: " + source_;
+  if (!source_.empty() && !assumed.empty()) source_ = with_defaults(assumed, entry, without_defaults(source_, entry));
 }
 
 std::vector<Note> ReplacedMotors::notes() const {

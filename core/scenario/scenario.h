@@ -11,6 +11,7 @@
 #include "core/laws/contact_model.h"
 #include "core/laws/ground.h"
 #include "core/model/robot.h"
+#include "core/model/supply.h"
 #include "core/names.h"
 #include "core/plugin/plugin_instance.h"
 #include "core/scenario/as_built.h"
@@ -19,19 +20,6 @@
 #include "core/settings/node.h"
 
 namespace gaitlab {
-
-/// Battery or power supply that all motors share (docs/equations.md, 3). Without one, `voltage` is 0.
-struct Supply {
-  double voltage = 0;        ///< open-circuit voltage, V
-  double resistance = 0;     ///< of battery and wires, ohm
-  double current = 0;        ///< largest current, A; 0: not stated
-  double capacity = 0;       ///< A h; 0: not stated
-  double least = 0;          ///< voltage below which the electronics stop, V; 0: not stated
-  bool regenerates = false;  ///< true if the battery takes up the current of motors that brake
-  [[nodiscard]] bool any() const { return voltage > 0; }
-  bool operator==(const Supply&) const = default;
-  void fields(Fields& f);
-};
 
 struct Initial {
   PerJoint angles, speeds;                    ///< rad, rad/s
@@ -187,7 +175,8 @@ struct Scenario {
   Ground ground;
   ContactSettings contact;
   PluginSelection actuator, controller, cpg;
-  Supply supply;
+  Supply supply;                   ///< of all motors without a battery (docs/equations.md, 3); voltage 0 without one
+  std::vector<Battery> batteries;  ///< by module, of its motors; voltage 0 without one; empty if no module has one
   MeasuredSettings measured;       ///< log of the real robot
   std::vector<double> duty_volts;  ///< voltage of duty 1 by joint, if it is not that of the supply or the motors; not a setting
   std::string actuator_source;     ///< origin of the values in the section `actuator`; empty if not stated

@@ -235,11 +235,55 @@ void ScenarioChecks::units(const Actuator& actuator, const Controller& controlle
 }
 
 void ScenarioChecks::supply(const Actuator* actuator) {
-  if (!scenario_.supply.any() || (actuator != nullptr && actuator->dc_motors() != nullptr)) return;
+  if (actuator != nullptr && actuator->dc_motors() != nullptr) return;
   const std::string instead =
       actuator == nullptr ? "the robot has no motors"
                           : fmt::format("actuator '{}' takes {}", scenario_.actuator.entry->name, actuator->command_unit());
-  problems_.add(place_of(root_, kSupplySection, "voltage"), "supply needs motors that take V, but " + instead);
+  if (scenario_.supply.any())
+    problems_.add(place_of(root_, kSupplySection, "voltage"), "supply needs motors that take V, but " + instead);
+  for (const Node& document : *scenario_.module_documents) {
+    const Node* const battery = document.find("battery");
+    if (battery != nullptr) problems_.add(battery->place, "battery needs motors that take V, but " + instead);
+  }
+}
+
+SourceLocation ScenarioChecks::play_place(std::size_t joint) const {
+  const Robot& robot = *scenario_.robot;
+  const Joint& own = robot.joints[joint];
+  const std::string hinge = own.name.substr(own.name.find('/') + 1);
+  const Node& document = (*scenario_.module_documents)[robot.modules[own.module].type];
+  for (const Node& node : document.find("hinges")->items) {
+    const Node* const name = node.find("name");
+    const Node* const play = node.find("play");
+    if (name != nullptr && play != nullptr && name->text == hinge) return play->place;
+  }
+  return place_of(root_, "robot", "");
+}
+
+bool ScenarioChecks::play(const Actuator* actuator) {
+  const std::vector<std::size_t> joints = joints_with_play(*scenario_.robot);
+  if (joints.empty()) return true;
+  if (const ContactModel& contact = scenario_.contact.model(); !contact.rotor_inertia) {
+    problems_
+        .add(place_of(root_, "contact", "law"),
+             fmt::format("contact law '{}' cannot simulate play; expected contact.law: penalty, or no play", contact.text))
+        .notes.emplace_back(play_place(joints.front()), "the play is here");
+    return false;
+  }
+  const In inertia = actuator == nullptr ? In() : actuator->reflected_inertia();
+  for (const std::size_t j : joints) {
+    if (!inertia.empty() && inertia[j] > 0) continue;
+    const std::string what = fmt::format(
+        "joint '{}' has play, within which its motor turns alone, but {}; expected actuator.rotor_inertia above 0 kg m^2, or "
+        "no "
+        "play",
+        scenario_.robot->joints[j].name, actuator == nullptr ? "it has no motor" : "the motor has no rotor_inertia");
+    const std::optional<SourceLocation> stated = given(root_, "actuator", "rotor_inertia");
+    Problem& problem = problems_.add(stated ? *stated : play_place(j), what);
+    if (stated) problem.notes.emplace_back(play_place(j), "the play is here");
+    return false;
+  }
+  return true;
 }
 
 void ScenarioChecks::rotors(const Actuator& actuator) {

@@ -33,6 +33,9 @@ class ScenarioChecks {
   void units(const Actuator& actuator, const Controller& controller);
   /// Refuses a supply of actuators (nullptr for none) that are not DC motors.
   void supply(const Actuator* actuator);
+  /// Refuses play of gears whose motors (nullptr for none) have no inertia, and under laws that cannot simulate it. True if
+  /// there was no problem.
+  bool play(const Actuator* actuator);
   /// Refuses rotor inertia if the engine cannot add it. The message names the engines that can.
   void rotors(const Actuator& actuator);
   /// Refuses differences of motor constants that the actuator (nullptr for none) does not use, and of friction that the contact
@@ -43,6 +46,8 @@ class ScenarioChecks {
   /// Refuses numbers in as_built of parts, given by name, that cannot differ.
   void parts_as_built();
   void refuse_law(const Engine& engine);
+  /// Place of the play of a joint's hinge in its module type.
+  [[nodiscard]] SourceLocation play_place(std::size_t joint) const;
   /// Place of a joint's initial angle.
   [[nodiscard]] SourceLocation angle_place(std::size_t joint) const;
 

@@ -55,20 +55,6 @@ void BaseFields::fields(Fields& f) {
   f.vector("orientation", span_of(scenario.orientation), {"rad", -100, 100, "Start of the base frame: roll, pitch, yaw."});
 }
 
-void Supply::fields(Fields& f) {
-  f.number("voltage", voltage, {"V", kPositive, 1e6, "Open-circuit voltage; required."});
-  f.number("resistance", resistance, {"ohm", 0, 1e6, "Resistance of battery and wires."});
-  f.number("current", current, {"A", 0, 1e6, "Largest continuous current, which check battery compares; 0: not stated."});
-  f.number("capacity", capacity, {"A h", 0, 1e6, "Charge of the full battery; 0: not stated."});
-  f.number("least", least, {"V", 0, 1e6, "Voltage below which the electronics stop; 0: not stated."});
-  f.flag("regenerates", regenerates, "True if the battery takes up the current of motors that brake.");
-  if (!any() && *this != Supply()) {
-    f.problem("voltage", "supply has no voltage; expected supply.voltage, the open-circuit voltage in V");
-  } else if (least > 0 && least >= voltage) {
-    f.problem("least", fmt::format("supply.least {:.4g} V is not below supply.voltage {:.4g} V", least, voltage));
-  }
-}
-
 void Initial::fields(Fields& f) {
   f.per_joint("angles", angles,
               {"rad", -1000, 1000,
@@ -333,7 +319,8 @@ void SectionFields::fields(Fields& f) {
     f.group(kind.section, section, kind.about);
   };
   group(actuator);
-  if (!writing || scenario.supply.any()) f.group(kSupplySection, scenario.supply, "Battery or power supply of all motors.");
+  if (!writing || scenario.supply.any())
+    f.group(kSupplySection, scenario.supply, "Battery or power supply of all motors whose module types have no battery.");
   if (!actuator.none) group(controller);
   if (has_cpg) group(cpg);
   f.number("duration", scenario.duration, {"s", kPositive, 1e6, "Simulated time; required."});

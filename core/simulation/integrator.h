@@ -18,10 +18,12 @@ class ExplicitIntegrator {
  public:
   enum Method { semi_implicit, rk4 };
 
-  ExplicitIntegrator(Method method, std::size_t joints) : method_(method) {
+  /// `plays`: number of joints with play.
+  ExplicitIntegrator(Method method, std::size_t joints, std::size_t plays) : method_(method) {
     a_.joints.resize(joints);
-    stage_.q.resize(joints);
-    stage_.qd.resize(joints);
+    a_.rotors.resize(plays);
+    for (auto* values : {&stage_.q, &stage_.qd}) values->resize(joints);
+    for (auto* values : {&stage_.rotor, &stage_.rotor_speed}) values->resize(plays);
     start_ = stage_;
     rate_ = stage_;
   }
@@ -42,6 +44,7 @@ class ExplicitIntegrator {
     s.position += h * s.velocity;
     s.orientation = (turn(h * s.angular_velocity) * s.orientation).normalized();
     for (std::size_t j = 0; j < s.q.size(); ++j) s.q[j] += h * s.qd[j];
+    for (std::size_t k = 0; k < s.rotor.size(); ++k) s.rotor[k] += h * s.rotor_speed[k];
   }
 
  private:
@@ -49,6 +52,7 @@ class ExplicitIntegrator {
     s.velocity += h * a.linear;
     s.angular_velocity += h * a.angular;
     for (std::size_t j = 0; j < s.q.size(); ++j) s.qd[j] += h * a.joints[j];
+    for (std::size_t k = 0; k < s.rotor.size(); ++k) s.rotor_speed[k] += h * a.rotors[k];
   }
 
   /// Derivative of an orientation: q' = (0, omega) q / 2. It is not a unit quaternion; its coefficients are to be summed.
@@ -64,6 +68,10 @@ class ExplicitIntegrator {
       s.q[j] = start_.q[j] + h * at.qd[j];
       s.qd[j] = start_.qd[j] + h * a.joints[j];
     }
+    for (std::size_t k = 0; k < s.rotor.size(); ++k) {
+      s.rotor[k] = start_.rotor[k] + h * at.rotor_speed[k];
+      s.rotor_speed[k] = start_.rotor_speed[k] + h * a.rotors[k];
+    }
   }
 
   /// rate_ += weight * derivative at `at`.
@@ -75,6 +83,10 @@ class ExplicitIntegrator {
     for (std::size_t j = 0; j < at.q.size(); ++j) {
       rate_.q[j] += weight * at.qd[j];
       rate_.qd[j] += weight * a.joints[j];
+    }
+    for (std::size_t k = 0; k < at.rotor.size(); ++k) {
+      rate_.rotor[k] += weight * at.rotor_speed[k];
+      rate_.rotor_speed[k] += weight * a.rotors[k];
     }
   }
 
@@ -105,13 +117,16 @@ class ExplicitIntegrator {
       s.q[j] = start_.q[j] + h * rate_.q[j];
       s.qd[j] = start_.qd[j] + h * rate_.qd[j];
     }
+    for (std::size_t k = 0; k < s.rotor.size(); ++k) {
+      s.rotor[k] = start_.rotor[k] + h * rate_.rotor[k];
+      s.rotor_speed[k] = start_.rotor_speed[k] + h * rate_.rotor_speed[k];
+    }
   }
 
   static void clear(RobotState& s) {
     s.position = s.velocity = s.angular_velocity = Vec3::Zero();
     s.orientation.coeffs().setZero();
-    std::fill(s.q.begin(), s.q.end(), 0.0);
-    std::fill(s.qd.begin(), s.qd.end(), 0.0);
+    for (auto* values : {&s.q, &s.qd, &s.rotor, &s.rotor_speed}) std::fill(values->begin(), values->end(), 0.0);
   }
 
   Method method_;

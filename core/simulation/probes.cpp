@@ -7,6 +7,7 @@
 #include "core/model/pattern.h"
 #include "core/plugin/plugin_instance.h"
 #include "core/plugin/robot_info.h"
+#include "core/scenario/buses.h"
 #include "core/scenario/sections.h"
 #include "core/scenario/sensor_section.h"
 #include "core/settings/joint_patterns.h"
@@ -50,9 +51,13 @@ void Probes::add_all(const Scenario& scenario, const std::vector<ContactElement>
   const bool motors = scenario.actuator.entry != nullptr;
   const bool friction = motors && !make_actuator(scenario.actuator, info(robot))->friction().empty();
   add_joints(robot, motors, command_unit, std::ranges::any_of(scenario.changes, faults), friction);
-  if (scenario.supply.any()) {
-    add("supply.voltage", "V", "voltage of the bus, in force just before t", sample_.bus_voltage);
-    add("supply.current", "A", "current of the supply at the control tick that set this voltage", sample_.bus_current);
+  const std::vector<MotorBus> all = buses(scenario);
+  for (std::size_t b = 0; b < all.size(); ++b) {
+    const std::string of = all[b].module.empty() ? "" : " of module " + all[b].module;
+    add(all[b].name() + ".voltage", "V", "voltage of the bus" + of + ", in force just before t", sample_.bus_voltage[b]);
+    add(all[b].name() + ".current", "A",
+        (of.empty() ? "current of the supply" : "current of the battery" + of) + " at the control tick that set this voltage",
+        sample_.bus_current[b]);
   }
   add_base();
   add_vector("com", "m", "centre of mass, world axes", [](const Sample& s) { return s.sums.com; });
@@ -104,6 +109,7 @@ void Probes::add_vector(const std::string& name, const std::string& unit, const 
 }
 
 void Probes::add_joints(const Robot& robot, bool motors, std::string_view command_unit, bool faults, bool friction) {
+  std::size_t plays = 0;
   for (std::size_t j = 0; j < robot.joints.size(); ++j) {
     const std::string of = " of joint " + robot.joints[j].name;
     const bool driven = motors && robot.joints[j].driven();
@@ -114,11 +120,18 @@ void Probes::add_joints(const Robot& robot, bool motors, std::string_view comman
     if (driven) joint("setpoint", "rad", "set point in force just before t", &Sample::setpoint);
     add(fmt::format("joint.{}.angle", j), "rad", "angle" + of, sample_.state.q[j]);
     add(fmt::format("joint.{}.speed", j), "rad/s", "speed" + of, sample_.state.qd[j]);
+    if (driven && robot.joints[j].play.any()) {
+      const std::size_t play = plays++;
+      add(fmt::format("joint.{}.motor_angle", j), "rad", "angle of the motor, geared," + of, sample_.state.rotor[play]);
+      add(fmt::format("joint.{}.motor_speed", j), "rad/s", "speed of the motor, geared," + of, sample_.state.rotor_speed[play]);
+    }
     if (driven) {
       joint("voltage_command", command_unit, "controller output before clamping, in force just before t", &Sample::command);
       joint("voltage", "V", "terminal voltage of the motor", &Sample::voltage);
       joint("current", "A", "current of the motor", &Sample::current);
       joint("torque", "N m", "motor torque on the joint, positive along the axis,", &Sample::torque);
+      if (robot.joints[j].play.any())
+        joint("gear_torque", "N m", "torque of the gear on the link, positive along the axis,", &Sample::gear_torque);
       if (friction) joint("friction", "N m", "part of this torque that friction gives,", &Sample::friction);
     }
     if (!robot.joints[j].driven()) {

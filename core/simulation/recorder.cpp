@@ -13,6 +13,7 @@
 #include <system_error>
 
 #include "core/recording/h5.h"
+#include "core/scenario/buses.h"
 
 namespace gaitlab {
 
@@ -73,9 +74,14 @@ Recorder::Recorder(const Scenario& scenario, const std::vector<ContactElement>& 
   const std::size_t joints = scenario.robot->joints.size();
   recording.ticks.columns = tick_columns(joints);
   recording.poses.columns = pose_columns(joints);
-  if (scenario.supply.any()) {
-    recording.supply.columns = supply_columns();
-    bus_since_row_ = {0, scenario.supply.voltage, 0, 1, 0, 0};
+  if (const std::vector<MotorBus> all = buses(scenario); !all.empty()) {
+    std::vector<std::string> modules;
+    bus_since_row_ = {0};
+    for (const MotorBus& bus : all) {
+      modules.push_back(bus.module);
+      bus_since_row_.insert(bus_since_row_.end(), {bus.supply.voltage, 0, 1, 0, 0});
+    }
+    recording.supply.columns = supply_columns(modules);
   }
   ticks_per_row_ = std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(kTickRows / scenario.control_period - 1e-9)));
   ticks_per_load_ = ticks_per_row_;
@@ -140,23 +146,28 @@ std::optional<Out> Recorder::add_tick(double t, bool last) {
   if (!bus_since_row_.empty()) {
     bus_since_row_[0] = t;
     recording.supply.values.insert(recording.supply.values.end(), bus_since_row_.begin(), bus_since_row_.end());
-    bus_since_row_[kLeastVoltage] = INFINITY;
-    bus_since_row_[kLargestCurrent] = 0;
-    bus_since_row_[kHeld] = 1;
+    for (std::size_t bus = 0; bus + 1 < bus_since_row_.size(); bus += kBusColumns) {
+      bus_since_row_[bus + kLeastVoltage] = INFINITY;
+      bus_since_row_[bus + kLargestCurrent] = 0;
+      bus_since_row_[bus + kHeld] = 1;
+    }
   }
   loads_due_ = loads_ != nullptr;
   skipped_ = false;
   return row.subspan(1);
 }
 
-void Recorder::add_bus(const BusState& bus) {
-  if (bus_since_row_.empty()) return;
+void Recorder::add_buses(std::span<const BusState> all) {
   const auto worse = [](double& now, double value) { now = std::min(now, value); };
-  worse(bus_since_row_[kLeastVoltage], bus.voltage);
-  worse(bus_since_row_[kHeld], bus.held ? 1 : 0);
-  bus_since_row_[kLargestCurrent] = std::max(bus_since_row_[kLargestCurrent], std::abs(bus.current));
-  bus_since_row_[kCharge] += bus.current * scenario_.control_period;
-  bus_since_row_[kBusSquare] += bus.current * bus.current * scenario_.control_period;
+  for (std::size_t b = 0; b < all.size(); ++b) {
+    const BusState& bus = all[b];
+    const Out row = Out(bus_since_row_).subspan(b * kBusColumns, 1 + kBusColumns);
+    worse(row[kLeastVoltage], bus.voltage);
+    worse(row[kHeld], bus.held ? 1 : 0);
+    row[kLargestCurrent] = std::max(row[kLargestCurrent], std::abs(bus.current));
+    row[kCharge] += bus.current * scenario_.control_period;
+    row[kBusSquare] += bus.current * bus.current * scenario_.control_period;
+  }
 }
 
 void Recorder::skip_tick() {

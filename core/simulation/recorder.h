@@ -47,8 +47,8 @@ class Recorder {
   std::optional<Out> add_tick(double t, bool last);
   /// Marks a control tick without a row. Its loads count for the next row.
   void skip_tick();
-  /// Adds the bus of a control tick and of the time until the next tick to the next row of Recording::supply.
-  void add_bus(const BusState& bus);
+  /// Adds the buses of a control tick and of the time until the next tick to the next row of Recording::supply.
+  void add_buses(std::span<const BusState> all);
   /// Adds a row to Recording::poses: state, set points, centre of mass and contacts of the sample.
   void add_pose(double t, const Sample& sample);
 

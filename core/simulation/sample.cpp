@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/laws/gear_play.h"
 #include "core/laws/hinge_stop.h"
 #include "core/laws/passive_hinge.h"
 
@@ -14,11 +15,15 @@ Sample::Sample(const Robot& robot, std::size_t contacts_count, std::size_t cpg_s
       contacts(contacts_count),
       cpg(cpg_states),
       reactions(robot) {
-  for (auto* values :
-       {&state.q, &state.qd, &setpoint, &command, &voltage, &current, &saturation, &torque, &friction, &stop_torque,
-        &passive_torque, &fault, &stuck_for, &acceleration_.joints, &applied_, &tally.torque_error, &tally.torque_peak}) {
+  for (auto* values : {&state.q, &state.qd, &setpoint, &command, &voltage, &current, &saturation, &torque, &friction,
+                       &stop_torque, &passive_torque, &gear_torque, &fault, &stuck_for, &acceleration_.joints, &applied_,
+                       &tally.torque_error, &tally.torque_peak}) {
     values->assign(robot.joints.size(), 0.0);
   }
+  plays_ = joints_with_play(robot);
+  state.rotor.assign(plays_.size(), 0.0);
+  state.rotor_speed = state.rotor;
+  for (auto* values : {&bus_voltage, &bus_current}) values->assign(robot.modules.size() + 1, 0.0);
   hold.assign(robot.joints.size(), NAN);
   ground_.reserve(contacts_count);
 }
@@ -38,6 +43,11 @@ void Sample::compute_hinges(const Robot& robot, const std::vector<std::size_t>& 
     stop_torque[j] = std::isnan(hold[j]) ? HingeStop::at(state.q[j], state.qd[j], robot.joints[j].lo, robot.joints[j].hi).torque
                                          : HingeHold::torque(state.q[j], state.qd[j], hold[j], HingeHold::grip(stuck_for[j]));
   }
+  for (std::size_t k = 0; k < plays_.size(); ++k) {
+    const std::size_t j = plays_[k];
+    const double speed = state.rotor_speed[k] - state.qd[j];
+    gear_torque[j] = -law(robot.joints[j].play).at(state.rotor[k] - state.q[j], speed).torque;
+  }
   for (const std::size_t j : passive) {
     PassiveHinge hinge = law(*robot.joints[j].passive);
     if (sticks) hinge.friction = 0;
@@ -47,8 +57,12 @@ void Sample::compute_hinges(const Robot& robot, const std::vector<std::size_t>& 
 
 double Sample::energy(const Robot& robot, const Rotors& rotors, const std::vector<std::size_t>& passive) const {
   double turning = 0;
+  const auto speed = [&](std::size_t j) {
+    const auto play = std::ranges::find(plays_, j);
+    return play == plays_.end() ? state.qd[j] : state.rotor_speed[static_cast<std::size_t>(play - plays_.begin())];
+  };
   for (std::size_t j = 0; j < robot.joints.size() && !rotors.inertia.empty(); ++j) {
-    turning += rotors.inertia[j * rotors.lanes + rotors.lane] * state.qd[j] * state.qd[j] / 2;
+    turning += rotors.inertia[j * rotors.lanes + rotors.lane] * speed(j) * speed(j) / 2;
   }
   double stored = sums.kinetic + sums.potential + turning;
   for (const std::size_t j : passive) stored += law(*robot.joints[j].passive).energy(state.q[j]);
@@ -76,6 +90,7 @@ void Sample::place_boxes(const Plant& plant) {
 
 void Sample::compute_reactions(const std::vector<ContactElement>& elements, Plant& plant, std::size_t lane) {
   for (std::size_t j = 0; j < applied_.size(); ++j) applied_[j] = torque[j] + stop_torque[j] + passive_torque[j];
+  for (const std::size_t j : plays_) applied_[j] = gear_torque[j] + stop_torque[j];
   ground_.clear();
   for (std::size_t c = 0; c < elements.size(); ++c) {
     if (contacts[c].fn > 0) ground_.push_back({elements[c].body, contacts[c].point, contacts[c].force});

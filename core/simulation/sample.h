@@ -22,7 +22,7 @@ struct Sample {
   void set_boxes(const Ground& ground);         ///< places the boxes at their start
   /// Reads the motion of the ground boxes from `plant`. The signs of their quaternions are continuous in time.
   void place_boxes(const Plant& plant);
-  /// Fills the torques of stops and passive hinges from the state. `passive` lists the joints without a motor.
+  /// Fills the torques of stops, gears with play and passive hinges from the state. `passive` lists the joints without a motor.
   void compute_hinges(const Robot& robot, const std::vector<std::size_t>& passive);
   /// Kinetic and potential energy, including the energy of rotors and of springs of passive hinges, J.
   [[nodiscard]] double energy(const Robot& robot, const Rotors& rotors, const std::vector<std::size_t>& passive) const;
@@ -36,11 +36,12 @@ struct Sample {
   Sums sums;
   Vec3 gravity = Vec3::Zero();
   std::vector<double> setpoint, command, voltage, current, saturation, torque, friction, stop_torque, passive_torque;
+  std::vector<double> gear_torque;  ///< of gears with play, on the links; 0 for other joints
   bool sticks = false;              ///< true if `friction` of passive hinges is set-valued, and part of passive_torque
   std::vector<double> fault, hold;  ///< per joint: number of its fault; its angle if it is stuck, rad, else NaN
   std::vector<double> stuck_for;    ///< time that each joint has been stuck, s, as in Plant::change_joints
   double segment = 0;
-  double bus_voltage = 0, bus_current = 0;  ///< V, A; of a scenario with a supply
+  std::vector<double> bus_voltage, bus_current;  ///< V, A; of each bus (buses()), with room for one of each module and one more
   std::vector<ContactSample> contacts;
   std::vector<BoxMotion> boxes;  ///< one per box of the ground; empty if none can move
   std::vector<double> cpg;
@@ -51,6 +52,7 @@ struct Sample {
       reactions;  ///< at hinges, docks and base under motors, stops, passive hinges and contacts; see compute_reactions()
 
  private:
+  std::vector<std::size_t> plays_;  ///< joints with play
   Acceleration acceleration_;
   std::vector<double> applied_;
   std::vector<BodyWrench> ground_;

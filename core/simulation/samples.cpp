@@ -42,8 +42,10 @@ Sample& Simulation::take_sample(Lane& lane, bool places) {
     s.friction[j] = friction_[i];
   }
   if (bounded_) {
-    s.bus_voltage = bus_[2 * l];
-    s.bus_current = bus_[2 * l + 1];
+    for (std::size_t b = 0; b < lane.supply.buses(); ++b) {
+      s.bus_voltage[b] = bus_[2 * (b * lanes + l)];
+      s.bus_current[b] = bus_[2 * (b * lanes + l) + 1];
+    }
   }
   s.sticks = rubs_ && plant_->holds_hinges();
   lane.read_changes(s);
@@ -58,7 +60,7 @@ Sample& Simulation::take_sample(Lane& lane, bool places) {
 
 /// Computes motor quantities and contacts as left limits, under the command in force.
 void Simulation::observe() {
-  evaluate_motors(plant_state_.subspan(layout_.speeds(), command_.size()));
+  evaluate_motors(motor_speeds());
   evaluate_torques(within_);
   plant_->update_contacts();
 }

@@ -17,7 +17,9 @@ namespace gaitlab {
 
 bool can_share(const Scenario& a, const Scenario& b) {
   const auto same_link = [](const Link& x, const Link& y) { return x.parent == y.parent && x.joint == y.joint; };
-  const auto same_drive = [](const Joint& x, const Joint& y) { return x.driven() == y.driven(); };
+  const auto same_drive = [](const Joint& x, const Joint& y) {
+    return x.driven() == y.driven() && x.play.any() == y.play.any();
+  };
   const auto same_place = [](const ContactElement& x, const ContactElement& y) { return x.link == y.link; };
   const auto elements = [](const Scenario& s) { return contact_elements(*s.robot, s.contact.on); };
   return estimated_by_rollouts(a) == estimated_by_rollouts(b) && a.physics.engine == b.physics.engine &&
@@ -37,7 +39,8 @@ Simulation::Simulation(std::span<const Scenario> lanes, Records records, Role ro
       records_(records),
       role_(role),
       h_(scenarios_.at(0).physics.step),
-      layout_{scenarios_[0].robot->joints.size(), scenarios_.size()},
+      plays_(joints_with_play(*scenarios_[0].robot)),
+      layout_{scenarios_[0].robot->joints.size(), scenarios_.size(), plays_.size()},
       first_(layout_, recorded_),
       meter_(std::span(scenarios_).first(recorded_)) {
   // A log of the real robot is compared with rows of the trace.
@@ -70,6 +73,7 @@ Simulation::Simulation(std::span<const Scenario> lanes, Records records, Role ro
   for (const auto& lane : lanes_) {
     for (const std::size_t j : lane->passive) rubs_ = rubs_ || lane->robot.joints[j].passive->friction > 0;
   }
+  if (!plays_.empty()) motor_speed_.assign(layout_.joints * lanes_.size(), 0.0);
   available_.assign(layout_.joints * lanes_.size(), 0.0);
   largest_.assign(layout_.joints * recorded_, 0.0);
   numbers_.assign(state_size(), 0.0);
@@ -115,7 +119,7 @@ std::vector<std::size_t> Simulation::rated_gears(const Lane& lane) const {
 /// Number of changing values of this simulation, without the values of separate companions.
 std::size_t Simulation::state_size() const {
   std::size_t size = 1 + layout_.size() + plant_->history() + 2 * layout_.joints * lanes_.size();
-  if (bounded_) size += 2 * (layout_.joints + 1) * lanes_.size();
+  if (bounded_) size += 2 * (layout_.joints + buses_) * lanes_.size();
   for (const auto& lane : lanes_) {
     size += lane->sample.cpg.size() + (lane->controller == nullptr ? 0 : lane->controller->states()) + Ledger::kSums;
     size += lane->sensors.states() + lane->changes.states();
@@ -143,7 +147,7 @@ void Simulation::cut_state(Out numbers) {
   if (bounded_) {
     bound_ = cut(joints);
     within_bound_ = cut(joints);
-    bus_ = cut(2 * lanes_.size());
+    bus_ = cut(2 * buses_ * lanes_.size());
   }
   for (const auto& lane : lanes_) {
     lane->cpg_state = cut(lane->sample.cpg.size());
@@ -200,8 +204,11 @@ void Simulation::place_at_start(Lane& lane) {
     bound_[j * lanes_.size() + lane.index] = std::numeric_limits<double>::infinity();
     within_bound_[j * lanes_.size() + lane.index] = 0;
   }
-  bus_[2 * lane.index] = lane.supply.open_circuit();
-  bus_[2 * lane.index + 1] = 0;
+  for (std::size_t b = 0; b < lane.supply.buses(); ++b) {
+    const std::size_t at = 2 * (b * lanes_.size() + lane.index);
+    bus_[at] = lane.supply.open_circuit(b);
+    bus_[at + 1] = 0;
+  }
 }
 
 void Simulation::check_standing() {

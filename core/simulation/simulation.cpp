@@ -129,6 +129,17 @@ void Simulation::end(Lane& lane) {
   apply_faults();
 }
 
+In Simulation::motor_speeds() {
+  const In speeds = plant_state_.subspan(layout_.speeds(), command_.size());
+  if (plays_.empty()) return speeds;
+  const std::size_t lanes = lanes_.size();
+  std::ranges::copy(speeds, motor_speed_.begin());
+  for (std::size_t k = 0; k < plays_.size(); ++k)
+    std::copy_n(plant_state_.begin() + static_cast<std::ptrdiff_t>(layout_.rotor_speeds() + k * lanes), lanes,
+                motor_speed_.begin() + static_cast<std::ptrdiff_t>(plays_[k] * lanes));
+  return motor_speed_;
+}
+
 /// Evaluates the actuator law at `speeds` under the commands in force.
 void Simulation::evaluate_motors(In speeds) {
   if (actuator_ == nullptr) return;
@@ -143,7 +154,7 @@ void Simulation::evaluate_motors(In speeds) {
 /// Computes the torques of motors at the present state under the commands in force, and friction_, which is part of them except
 /// for passive hinges. `within`: time since the last call of apply_faults(), s.
 void Simulation::evaluate_torques(double within) {
-  const In speeds = plant_state_.subspan(layout_.speeds(), command_.size());
+  const In speeds = motor_speeds();
   if (actuator_ != nullptr) actuator_->effort(commands(), speeds, torque_, slope_);
   if (!rubs_) return;
   std::ranges::copy(torque_, friction_.begin());
@@ -193,7 +204,7 @@ void Simulation::sense() {
   // step.
   evaluate_torques(0);
   const auto need_current = [](const auto& lane) { return lane->sensors.need_current(); };
-  if (std::ranges::any_of(lanes_, need_current)) evaluate_motors(plant_state_.subspan(layout_.speeds(), command_.size()));
+  if (std::ranges::any_of(lanes_, need_current)) evaluate_motors(motor_speeds());
   plant_->update_contacts();
   for (const auto& one : lanes_) {
     Lane& lane = *one;
@@ -203,6 +214,11 @@ void Simulation::sense() {
       lane.angle[j] = plant_state_[layout_.angles() + j * lanes + l];
       lane.speed[j] = plant_state_[layout_.speeds() + j * lanes + l];
       lane.torque[j] = torque_[j * lanes + l];
+    }
+    for (std::size_t k = 0; k < plays_.size(); ++k) {
+      if (!lane.robot.joints[plays_[k]].play.encoder_at_motor) continue;
+      lane.angle[plays_[k]] = plant_state_[layout_.rotors() + k * lanes + l];
+      lane.speed[plays_[k]] = plant_state_[layout_.rotor_speeds() + k * lanes + l];
     }
     std::fill(lane.touching.begin(), lane.touching.end(), 0.0);
     plant_->contacts(l, lane.sample.contacts);

@@ -118,6 +118,8 @@ class Simulation {
   /// Commands that reach the motors, by joint * lanes + lane.
   [[nodiscard]] In commands() const { return bounded_ ? In(within_bound_) : In(command_); }
   void supply(Lane& lane);
+  /// Speeds of the motors at the present state, by joint * lanes + lane.
+  [[nodiscard]] In motor_speeds();
   void evaluate_motors(In speeds);
   void evaluate_torques(double within);
   In evaluate_available(const StepEffort::Part& part);
@@ -157,6 +159,7 @@ class Simulation {
   std::vector<double> stuck_for_;  ///< time that these hinges have been stuck, s, as in Plant::change_joints
   std::unique_ptr<Plant> plant_;
   std::vector<std::unique_ptr<Lane>> lanes_;
+  std::vector<std::size_t> plays_;  ///< joints with play, of every lane
   StateLayout layout_;
   std::unique_ptr<Actuator> own_actuator_;  ///< actuator of the recorded lanes alone; nullptr if all lanes are recorded
   std::vector<double> numbers_;             ///< all changing numbers, including apart_; empty in a separate companion
@@ -167,10 +170,12 @@ class Simulation {
   std::unique_ptr<StepError> step_error_;                 ///< nullptr without an estimate
   Out plant_state_, plant_history_, setpoint_, command_;  ///< parts of state_; the last two by joint * lanes + lane
   /// Parts of state_, empty without a supply or duties: bounds of the commands, and the commands within these bounds, by
-  /// joint * lanes + lane, and voltage and current of the bus by lane.
+  /// joint * lanes + lane, and voltage and current by bus * lanes + lane.
   Out bound_, within_bound_, bus_;
   std::vector<double> voltage_, current_, saturation_, power_in_, copper_, gear_, torque_, slope_, friction_, dry_, available_,
       largest_;                               ///< scratch by joint * lanes + lane; largest_ has the recorded lanes only
+  std::vector<double> motor_speed_;           ///< result of motor_speeds(); empty without play
+  std::size_t buses_ = 1;                     ///< largest number of buses of a lane
   bool bounded_ = false;                      ///< true if a lane has a supply, or a controller that commands duties
   bool rubs_ = false;                         ///< true if a joint has friction, or a gear whose torque jumps at rest
   FirstLanes first_;                          ///< entries of the recorded lanes

@@ -1,5 +1,6 @@
 #include "core/simulation/stability.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/laws/passive_hinge.h"
@@ -33,12 +34,15 @@ void static_contact_slopes(const LaneSettings& s, const Kinematics& k, std::vect
   }
 }
 
-RateMonitor::RateMonitor(const Robot& robot)
+RateMonitor::RateMonitor(const Robot& robot, std::vector<double> rotors)
     : motor(robot.joints.size(), 0.0),
       stop(robot.joints.size(), 0.0),
       hinge(robot.joints.size(), 0.0),
       hold(robot.joints.size(), NAN),
-      x_(6 + robot.joints.size()),
+      plays_(joints_with_play(robot)),
+      rotors_(std::move(rotors)),
+      flank_(plays_.size(), 0.0),
+      x_(6 + robot.joints.size() + plays_.size()),
       kx_(x_.size()),
       y_(x_.size()),
       v_(robot.links.size()),
@@ -85,9 +89,17 @@ void RateMonitor::damp(const Robot& robot, const Kinematics& k, In x, Out f) {
   for (std::size_t i = robot.links.size() - 1; i > 0; --i) {
     const auto parent = static_cast<std::size_t>(robot.links[i].parent);
     const auto joint = static_cast<std::size_t>(robot.links[i].joint);
-    f[6 + joint] = (k.R[i] * robot.links[i].axis).dot(moment_[i]) + (motor[joint] + stop[joint] + hinge[joint]) * x[6 + joint];
+    const double own = robot.joints[joint].play.any() ? 0 : motor[joint];
+    f[6 + joint] = (k.R[i] * robot.links[i].axis).dot(moment_[i]) + (own + stop[joint] + hinge[joint]) * x[6 + joint];
     force_[parent] += force_[i];
     moment_[parent] += moment_[i] + (k.p[i] - k.p[parent]).cross(force_[i]);
+  }
+  for (std::size_t p = 0; p < plays_.size(); ++p) {
+    const std::size_t j = 6 + plays_[p];
+    const std::size_t shaft = 6 + motor.size() + p;
+    const double across = flank_[p] * (x[shaft] - x[j]);
+    f[j] -= across;
+    f[shaft] = motor[plays_[p]] * x[shaft] + across;
   }
   for (std::size_t a = 0; a < 3; ++a) {
     f[a] = force_[0][static_cast<Eigen::Index>(a)];
@@ -106,9 +118,15 @@ Stability RateMonitor::attribute(const Kinematics& k, In x, double rate) const {
     }
   };
   for (std::size_t j = 0; j < motor.size(); ++j) {
-    offer(motor[j] * x[6 + j] * x[6 + j], Stability::Source::motor, j);
+    if (std::ranges::find(plays_, j) == plays_.end()) offer(motor[j] * x[6 + j] * x[6 + j], Stability::Source::motor, j);
     offer(stop[j] * x[6 + j] * x[6 + j], Stability::Source::stop, j);
     offer(hinge[j] * x[6 + j] * x[6 + j], Stability::Source::hinge, j);
+  }
+  for (std::size_t p = 0; p < plays_.size(); ++p) {
+    const double w = x[6 + motor.size() + p];
+    const double apart = w - x[6 + plays_[p]];
+    offer(motor[plays_[p]] * w * w, Stability::Source::motor, plays_[p]);
+    offer(flank_[p] * apart * apart, Stability::Source::play, plays_[p]);
   }
   for (const ContactSlope& c : contacts) {
     const Vec3 v = velocity_at(k, c);
@@ -126,7 +144,9 @@ Stability RateMonitor::largest(const Robot& robot, const Kinematics& k, InverseM
   double rate = 0;
   for (int iteration = 0; iteration < iterations; ++iteration) {
     damp(robot, k, x_, kx_);
-    inverse_mass.apply(kx_, y_);
+    const std::size_t robots = x_.size() - plays_.size();
+    inverse_mass.apply(In(kx_).first(robots), Out(y_).first(robots));
+    for (std::size_t p = 0; p < plays_.size(); ++p) y_[robots + p] = kx_[robots + p] / rotors_[p];
     double kxy = 0;
     double kxx = 0;
     double norm = 0;

@@ -2,6 +2,7 @@
 #pragma once
 #include <vector>
 
+#include "core/laws/gear_play.h"
 #include "core/laws/hinge_stop.h"
 #include "core/simulation/plant.h"
 
@@ -42,7 +43,8 @@ void static_contact_slopes(const LaneSettings& settings, const Kinematics& kinem
 /// and the number of iterations are fixed, so that the same state gives the same result.
 class RateMonitor {
  public:
-  explicit RateMonitor(const Robot& robot);
+  /// `rotors`: reflected inertias of the motors of joints with play (joints_with_play), kg m^2.
+  explicit RateMonitor(const Robot& robot, std::vector<double> rotors = {});
 
   /// Inputs of largest(), which the caller fills. The constructor sets one 0 or NaN per joint, and no contacts.
   std::vector<double> motor, stop;     ///< damping slopes, N m s/rad
@@ -60,6 +62,10 @@ class RateMonitor {
     stop_at(*lane.robot, state, step);
     for (const std::size_t j : lane.stuck) stop[j] = standing ? held(step) : stop[j];
     hinge_at(*lane.robot, state, standing, step);
+    for (std::size_t k = 0; k < plays_.size(); ++k) {  // a motor meets a flank at any time
+      const GearPlay own = law(lane.robot->joints[plays_[k]].play);
+      flank_[k] = own.damping() + step * own.stiffness;
+    }
     contacts.clear();
     if (standing && base != Base::fixed) {
       static_contact_slopes(lane, kinematics, contacts);
@@ -83,6 +89,8 @@ class RateMonitor {
   [[nodiscard]] Vec3 velocity_at(const Kinematics& k, const ContactSlope& c) const;
   [[nodiscard]] Stability attribute(const Kinematics& k, In velocity, double rate) const;
 
+  std::vector<std::size_t> plays_;      ///< joints with play; their motors are entries of x_ behind those of the joints
+  std::vector<double> rotors_, flank_;  ///< of these joints: kg m^2; damping of the flanks plus stiffness times step, N m s/rad
   std::vector<double> x_, kx_, y_;
   std::vector<Vec3> v_, omega_, force_, moment_;  ///< per link, at the origin of the link frame
 };

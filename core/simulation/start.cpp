@@ -40,6 +40,10 @@ RobotState start_of(const Scenario& s, bool lowered) {
     start.q.push_back(s.initial.angles[j]);
     start.qd.push_back(s.initial.speeds[j]);
   }
+  for (const std::size_t j : joints_with_play(robot)) {  // in the middle of the play
+    start.rotor.push_back(start.q[j]);
+    start.rotor_speed.push_back(start.qd[j]);
+  }
   if (lowered && s.ground.exists()) {
     Kinematics kinematics(robot);
     kinematics.update(robot, start);

@@ -61,7 +61,8 @@ void check_inertia(const Scenario& scenario, const Kinematics& k, In rotors, std
   for (std::size_t i = free.size() - 1; i > 0; --i) {  // a parent comes before its children
     const Link& link = robot.links[i];
     const auto joint = static_cast<std::size_t>(link.joint);
-    const double rotor = rotors.empty() ? 0 : rotors[joint * lanes + lane];
+    // A rotor behind play adds no inertia to its link.
+    const double rotor = rotors.empty() || robot.joints[joint].play.any() ? 0 : rotors[joint * lanes + lane];
     Motion axis = Motion::Zero();
     axis.head<3>() = k.R[i] * link.axis;
     const Motion momentum = free[i] * axis;

@@ -15,6 +15,12 @@ void StateLayout::read(In state, std::size_t lane, RobotState& out) const {
     out.q[j] = at(kAngles + j);
     out.qd[j] = at(kAngles + joints + j);
   }
+  out.rotor.resize(plays);
+  out.rotor_speed.resize(plays);
+  for (std::size_t k = 0; k < plays; ++k) {
+    out.rotor[k] = at(kAngles + 2 * joints + k);
+    out.rotor_speed[k] = at(kAngles + 2 * joints + plays + k);
+  }
 }
 
 void StateLayout::write(const RobotState& in, std::size_t lane, Out state) const {
@@ -32,6 +38,10 @@ void StateLayout::write(const RobotState& in, std::size_t lane, Out state) const
   for (std::size_t j = 0; j < joints; ++j) {
     put(kAngles + j, in.q[j]);
     put(kAngles + joints + j, in.qd[j]);
+  }
+  for (std::size_t k = 0; k < plays; ++k) {
+    put(kAngles + 2 * joints + k, in.rotor[k]);
+    put(kAngles + 2 * joints + plays + k, in.rotor_speed[k]);
   }
 }
 

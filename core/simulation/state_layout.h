@@ -13,15 +13,19 @@ inline constexpr std::size_t kEighths = 8;  ///< equal parts of a step; Plant::s
 /// Indices of the numbers of the state of a rollout. Entry e of lane l has the index e * lanes + l. SI units, world axes.
 struct StateLayout {
   std::size_t joints = 0, lanes = 1;
+  std::size_t plays = 0;                               ///< number of joints with play (joints_with_play)
   static constexpr std::size_t kPosition = 0;          ///< origin of the base frame, 3 numbers
   static constexpr std::size_t kOrientation = 3;       ///< quaternion w x y z, base -> world
   static constexpr std::size_t kVelocity = 7;          ///< velocity of the origin of the base frame, 3 numbers
   static constexpr std::size_t kAngularVelocity = 10;  ///< angular velocity of the base, 3 numbers
-  static constexpr std::size_t kAngles = 13;           ///< joint angles, followed by the joint speeds
+  /// Joint angles, followed by the joint speeds, the angles of the motors of joints with play, and the speeds of these motors.
+  static constexpr std::size_t kAngles = 13;
 
-  [[nodiscard]] std::size_t size() const { return (kAngles + 2 * joints) * lanes; }
+  [[nodiscard]] std::size_t size() const { return (kAngles + 2 * joints + 2 * plays) * lanes; }
   [[nodiscard]] std::size_t angles() const { return kAngles * lanes; }
   [[nodiscard]] std::size_t speeds() const { return (kAngles + joints) * lanes; }
+  [[nodiscard]] std::size_t rotors() const { return (kAngles + 2 * joints) * lanes; }
+  [[nodiscard]] std::size_t rotor_speeds() const { return (kAngles + 2 * joints + plays) * lanes; }
 
   void read(In state, std::size_t lane, RobotState& out) const;
   void write(const RobotState& in, std::size_t lane, Out state) const;
@@ -32,7 +36,8 @@ struct StepEffort {
   /// Motors and joints at one time within the step, with the weights of this time.
   struct Part {
     In torque;  ///< motor torque, N m (joint * lanes + lane)
-    In speed;   ///< joint speed at that torque, rad/s, for the computation of power
+    In speed;   ///< speed of the motor, geared, at that torque, rad/s, for the computation of power; that of the joint unless
+                ///< its gear has play
     In angle;   ///< joint angle, rad
     In sum;     ///< per lane: weight in integrals, s; negative if an extrapolation subtracts the part
     In share;   ///< per lane: weight in shares of time, s; 0 for an auxiliary part of the integration or if `instant`

@@ -50,6 +50,8 @@ std::string source_of(const Stability& stability, const Robot& robot, const std:
       return "the contact " + contacts[stability.index].name;
     case Stability::Source::hinge:
       return "spring, damper and friction of joint " + robot.joints[stability.index].name;
+    case Stability::Source::play:
+      return "the play of joint " + robot.joints[stability.index].name;
   }
   return "";
 }

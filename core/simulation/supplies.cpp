@@ -13,6 +13,7 @@ void Simulation::make_supplies() {
     if (lane->controller == nullptr) continue;
     lane->supply = LaneSupply(lane->scenario, lane->changes, actuator_->dc_motors(), lane->index, lanes_.size());
     bounded_ = bounded_ || lane->supply.any();
+    buses_ = std::max(buses_, lane->supply.buses());
   }
 }
 
@@ -20,7 +21,8 @@ void Simulation::make_supplies() {
 void Simulation::supply(Lane& lane) {
   if (!bounded_) return;
   const std::size_t lanes = lanes_.size();
-  for (std::size_t j = 0; j < layout_.joints; ++j) lane.speed_now[j] = plant_state_[layout_.speeds() + j * lanes + lane.index];
+  const In speeds = motor_speeds();
+  for (std::size_t j = 0; j < layout_.joints; ++j) lane.speed_now[j] = speeds[j * lanes + lane.index];
   std::fill(lane.bound.begin(), lane.bound.end(), std::numeric_limits<double>::infinity());
   lane.supply.apply(lane.changes.segment(), lane.speed_now, lane.command, lane.bound);
   for (std::size_t j = 0; j < layout_.joints; ++j) {
@@ -29,10 +31,13 @@ void Simulation::supply(Lane& lane) {
     bound_[i] = lane.bound[j];
     within_bound_[i] = std::clamp(command_[i], -bound_[i], bound_[i]);
   }
-  const BusState& bus = lane.supply.state();
-  bus_[2 * lane.index] = bus.voltage;
-  bus_[2 * lane.index + 1] = bus.current;
-  if (recorded(lane)) lane.recorder->add_bus(bus);
+  for (std::size_t b = 0; b < lane.supply.buses(); ++b) {
+    const BusState& bus = lane.supply.states()[b];
+    const std::size_t at = 2 * (b * lanes + lane.index);
+    bus_[at] = bus.voltage;
+    bus_[at + 1] = bus.current;
+  }
+  if (recorded(lane)) lane.recorder->add_buses(lane.supply.states());
 }
 
 }  // namespace gaitlab

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/scenario/buses.h"
+
 namespace gaitlab {
 
 namespace {
@@ -108,41 +110,58 @@ BusState solve(const Supply& supply, const std::vector<BusMotor>& motors) {
   return found(V0 / 2, false);
 }
 
+BusState held(const Supply& supply, const std::vector<BusMotor>& motors) {
+  double power = 0;
+  for (const BusMotor& one : motors) power += (*one.motor)(one.volts(supply.voltage), one.speed).drawn;
+  return {supply.voltage, (supply.regenerates ? power : std::max(0.0, power)) / supply.voltage, true};
+}
+
 LaneSupply::LaneSupply(const Scenario& scenario, const LaneChanges& changes, const DcMotor* motors, std::size_t lane,
                        std::size_t lanes)
     : lane_(lane),
       lanes_(lanes),
       duty_(changes.controller(0)->command_unit() == "duty"),
-      supply_(scenario.supply),
+      unlimited_(!scenario.duty_volts.empty()),
       volts_(scenario.duty_volts) {
-  if (motors == nullptr || !(duty_ || supply_.any())) return;
+  const std::vector<MotorBus> all = gaitlab::buses(scenario);
+  if (motors == nullptr || !(duty_ || !all.empty())) return;
   motors_ = motors;
-  supply_.voltage *= motor_build(scenario.as_built, 0).supply;
+  const double share = motor_build(scenario.as_built, 0).supply;
+  for (const MotorBus& bus : all) {
+    buses_.push_back({bus.supply, bus.joints, std::vector<BusMotor>(bus.joints.size())});
+    buses_.back().supply.voltage *= share;
+  }
+  states_.resize(all.size());
+  buses_.emplace_back();
   const std::size_t joints = scenario.robot->joints.size();
   for (std::size_t j = 0; j < joints; ++j) {
-    if (scenario.robot->joints[j].driven()) joints_.push_back(j);
+    if (scenario.robot->joints[j].driven() && !supply_of(scenario, j).any()) buses_.back().joints.push_back(j);
     if (scenario.duty_volts.empty()) volts_.push_back(motors[j * lanes + lane].u_max);
   }
+  buses_.back().motors.resize(buses_.back().joints.size());
   for (std::size_t segment = 0; segment < changes.segments(); ++segment) {
     std::vector<double>& most = most_.emplace_back(joints, 1.0);
     const std::vector<PositionGains> gains = duty_ ? changes.controller(segment)->gains() : std::vector<PositionGains>();
     for (std::size_t j = 0; j < gains.size(); ++j) most[j] = gains[j].most;
   }
-  on_bus_.resize(joints_.size());
 }
 
 void LaneSupply::apply(std::size_t segment, In speed, Out command, Out bound) {
-  if (!any()) return;
-  for (std::size_t k = 0; k < joints_.size(); ++k) {
-    const std::size_t j = joints_[k];
-    on_bus_[k] = {&motors_[j * lanes_ + lane_], speed[j], command[j], duty_, most_[segment][j]};
-  }
-  if (supply_.any()) state_ = solve(supply_, on_bus_);
-  for (std::size_t k = 0; k < joints_.size(); ++k) {
-    const std::size_t j = joints_[k];
-    const double bus = supply_.any() ? state_.voltage : volts_[j];
-    command[j] = on_bus_[k].volts(bus);
-    if (supply_.any() || on_bus_[k].most < 1) bound[j] = on_bus_[k].bound(bus);
+  for (std::size_t b = 0; b < buses_.size(); ++b) {
+    Bus& bus = buses_[b];
+    for (std::size_t k = 0; k < bus.joints.size(); ++k) {
+      const std::size_t j = bus.joints[k];
+      bus.motors[k] = {&motors_[j * lanes_ + lane_], speed[j], command[j], duty_, most_[segment][j]};
+    }
+    const bool supplied = bus.supply.any();
+    if (supplied) states_[b] = unlimited_ ? held(bus.supply, bus.motors) : solve(bus.supply, bus.motors);
+    const bool bounds = supplied && !unlimited_;
+    for (std::size_t k = 0; k < bus.joints.size(); ++k) {
+      const std::size_t j = bus.joints[k];
+      const double volts = bounds ? states_[b].voltage : volts_[j];
+      command[j] = bus.motors[k].volts(volts);
+      if (bounds || bus.motors[k].most < 1) bound[j] = bus.motors[k].bound(volts);
+    }
   }
 }
 

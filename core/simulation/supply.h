@@ -1,6 +1,7 @@
 // Supply of the motors: voltage of each bus, and the commands in volts that it permits.
 #pragma once
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/laws/dc_motor.h"
@@ -28,6 +29,9 @@ struct BusMotor {
 /// as 0, unless the supply regenerates. The result is the largest solution, to 1e-13 of V0.
 BusState solve(const Supply& supply, const std::vector<BusMotor>& motors);
 
+/// The bus of a supply that holds its open-circuit voltage, whatever the motors draw, and bounds no command.
+BusState held(const Supply& supply, const std::vector<BusMotor>& motors);
+
 /// Commands of a lane in volts, and their bounds.
 class LaneSupply {
  public:
@@ -37,21 +41,28 @@ class LaneSupply {
 
   /// True if commands are converted or bounded.
   [[nodiscard]] bool any() const { return motors_ != nullptr; }
-  [[nodiscard]] double open_circuit() const { return supply_.voltage; }
+  /// Number of buses (buses(), core/scenario/buses.h).
+  [[nodiscard]] std::size_t buses() const { return states_.size(); }
+  [[nodiscard]] double open_circuit(std::size_t bus) const { return buses_[bus].supply.voltage; }
   /// Converts the commands of a tick, by joint, from the unit of the controller to volts, and writes their bounds.
   void apply(std::size_t segment, In speed, Out command, Out bound);
-  [[nodiscard]] const BusState& state() const { return state_; }
+  [[nodiscard]] std::span<const BusState> states() const { return states_; }
 
  private:
   const DcMotor* motors_ = nullptr;
   std::size_t lane_ = 0, lanes_ = 1;
   bool duty_ = false;
-  Supply supply_;                          ///< as built
+  bool unlimited_ = false;                 ///< true in a run without motor limits: no supply bounds a command
   std::vector<double> volts_;              ///< of duty 1 by joint without a supply
   std::vector<std::vector<double>> most_;  ///< largest duty by segment and joint
-  std::vector<BusMotor> on_bus_;           ///< of driven joints
-  std::vector<std::size_t> joints_;
-  BusState state_;
+  /// Motors of driven joints that share a supply, or, in the last entry, have none.
+  struct Bus {
+    Supply supply;  ///< as built
+    std::vector<std::size_t> joints;
+    std::vector<BusMotor> motors;
+  };
+  std::vector<Bus> buses_;
+  std::vector<BusState> states_;
 };
 
 }  // namespace gaitlab

@@ -82,7 +82,8 @@ std::optional<double> share_at_limit(const Scenario& scenario, const Recording& 
   std::size_t at_limit = 0;
   for (std::size_t k = 0; k < rows; ++k) {
     const double share = walk.move_to(log.t[k]);
-    const std::size_t row = walk.row() + (share > 0 ? 1 : 0);  // a row has the command that was in force before it
+    // A row has the command that was in force before it.
+    const std::size_t row = walk.row() + (share * walk.length() > kSameTime ? 1 : 0);
     const double bound = bus.empty() ? most : std::min(most, bus[row]);
     if (std::abs(command[row]) >= kWholeDuty * bound) ++at_limit;
   }

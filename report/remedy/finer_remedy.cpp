@@ -28,7 +28,7 @@ Remedy remedy_of_finer_run(const RemedyTask& task, std::atomic<bool>& stop) {
     if (!end.refused.empty()) throw InputError(std::move(end.refused));
     found = verdict(scenario, end.recording, summarise(scenario, end.recording, 0), overlaps(scenario, end.recording));
   });
-  Remedy made{RemedySettings(resolved(task.scenario)), hash(resolved(task.scenario))};
+  Remedy made{settings_of(task.scenario), hash(resolved(task.scenario))};
   made.engine = made.own_engine = scenario.physics.engine->name;
   made.interrupted = true;
   if (found && found->word == Word::not_judged) throw no_verdict(task);

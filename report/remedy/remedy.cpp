@@ -40,7 +40,7 @@ class RemedySearch {
   RemedySearch(const RemedyTask& task, std::atomic<bool>& stop)
       : task_(task),
         stop_(stop),
-        made_{RemedySettings(resolved(task.scenario)), hash(resolved(task.scenario))},
+        made_{settings_of(task.scenario), hash(resolved(task.scenario))},
         work_(task.scenario.physics.engine->name == kFastEngine ? kEstimateRatio : kEngineRatio) {
     made_.word = task.verdict.word;
     made_.engine = made_.own_engine = task.scenario.physics.engine->name;
@@ -52,7 +52,7 @@ class RemedySearch {
     for (const RemedyKey& key : remedy_keys()) {
       if (!task_.by.empty() && std::ranges::count(task_.by, key.name) == 0) continue;
       if (const std::string reason = made_.settings.missing(key); !reason.empty()) {
-        made_.lacking.push_back({&key, reason});
+        if (!task_.by.empty() || made_.settings.concerns(key)) made_.lacking.push_back({&key, reason});
       } else {
         for (const bool up : {false, true}) made_.answers.push_back({.key = &key, .up = up, .stopped = true});
       }

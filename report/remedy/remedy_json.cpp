@@ -25,9 +25,12 @@ Json json_of(const RemedyRun& run) {
 
 Json json_of(const RemedyAnswer& answer, const RemedySettings& settings) {
   const double now = settings.value(*answer.key);
-  Json json{{"setting", answer.key->name}, {"keys", answer.key->paths},
-            {"unit", answer.key->unit},    {"direction", answer.up ? "up" : "down"},
-            {"now", number(now)},          {"changes_verdict", answer.crosses}};
+  Json json{{"setting", settings.name(*answer.key)},
+            {"keys", settings.paths(*answer.key)},
+            {"unit", answer.key->unit},
+            {"direction", answer.up ? "up" : "down"},
+            {"now", number(now)},
+            {"changes_verdict", answer.crosses}};
   json["until"] = {{"factor", answer.until}, {"value", number(now * answer.until)}};
   if (!answer.refused.empty()) json["refused"] = answer.refused;
   if (answer.stopped) json["interrupted"] = true;
@@ -110,7 +113,7 @@ std::string to_json(const Remedy& remedy) {
   json["ratings_suffice"] = remedy.ratings_suffice;
   json["not_tried"] = Json::array();
   for (const RemedyLack& lack : remedy.lacking)
-    json["not_tried"].push_back({{"setting", lack.key->name}, {"reason", lack.reason}});
+    json["not_tried"].push_back({{"setting", remedy.settings.name(*lack.key)}, {"reason", lack.reason}});
   if (remedy.map) json["map"] = json_of(*remedy.map, remedy.settings);
   if (remedy.pair) {
     json["pair"] = {{"frequency", remedy.pair->frequency},

@@ -9,6 +9,10 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "core/plugin/plugin_instance.h"
+#include "core/scenario/resolved.h"
+#include "core/scenario/sensor_section.h"
+
 namespace gaitlab::report {
 
 namespace {
@@ -21,9 +25,9 @@ const std::vector<RemedyKey> kKeys{
     {"u_max with i_max", {"actuator.u_max", "actuator.i_max"}, ""},
     {"stall_torque", {"actuator.stall_torque"}, "N m"},
     {"no_load_speed", {"actuator.no_load_speed"}, "rad/s", {"actuator.stall_current"}},
-    {"Kp", {"controller.Kp"}, ""},
-    {"gain", {"controller.gain"}, ""},
-    {"P", {"controller.P"}, ""},
+    {"supply.voltage", {"supply.voltage"}, "V", {}, false, true},
+    {"supply.resistance", {"supply.resistance"}, "ohm", {}, false, true},
+    {.name = "Kp", .paths = {"controller.Kp"}, .unit = "", .is_gain = true},
     {"friction", {"ground.friction"}, "", {"ground.boxes.friction"}},
 };
 
@@ -77,12 +81,34 @@ std::pair<std::string, std::string> split(const std::string& path) {
 
 std::span<const RemedyKey> remedy_keys() { return kKeys; }
 
-RemedySettings::RemedySettings(const std::string& resolved) : root_(parse_yaml(resolved, "the resolved scenario")) {
-  take_supply();
+RemedySettings::RemedySettings(const std::string& resolved, const std::vector<PositionGains>& gains)
+    : root_(parse_yaml(resolved, "the resolved scenario")), gain_(gains.empty() ? "Kp" : gains.front().key) {
+  take_voltage();
+  take_gain(gains);
 }
 
+/// Adds the position gain that the scenario does not state.
+void RemedySettings::take_gain(const std::vector<PositionGains>& gains) {
+  Node* const controller = child(root_, "controller");
+  if (gains.empty() || controller == nullptr || controller->find(gain_) != nullptr) return;
+  controller->keys.emplace_back(gain_, SourceLocation{});
+  Node& list = controller->items.emplace_back(Node{Node::Kind::list});
+  for (const PositionGains& law : gains)
+    list.items.push_back(Node{Node::Kind::scalar, {}, fmt::format("{}", law.P / law.per_key)});
+  const auto differ = [](const Node& a, const Node& b) { return a.text != b.text; };
+  if (std::ranges::adjacent_find(list.items, differ) == list.items.end()) list = Node(list.items.front());
+}
+
+std::vector<std::string> RemedySettings::paths(const RemedyKey& key) const {
+  if (key.is_gain) return {"controller." + gain_};
+  return {key.paths.begin(), key.paths.end()};
+}
+
+std::string RemedySettings::name(const RemedyKey& key) const { return key.is_gain ? gain_ : key.name; }
+
 /// Replaces the numbers 0 of `u_max` by the numbers of `voltage`.
-void RemedySettings::take_supply() {
+void RemedySettings::take_voltage() {
+  if (find("supply") != nullptr) return;
   Node* const actuator = child(root_, "actuator");
   const Node* const voltage = actuator == nullptr ? nullptr : actuator->find("voltage");
   if (voltage == nullptr) return;
@@ -129,18 +155,27 @@ bool RemedySettings::changes_in_time(const std::string& path) const {
 }
 
 std::string RemedySettings::missing(const RemedyKey& key) const {
-  for (const char* path : key.paths) {
-    if (std::ranges::none_of(numbers(path), [](double value) { return value != 0; })) {
-      return find("actuator.voltage") != nullptr && std::string_view(path) == "actuator.i_max" ? "0: the stall current at u_max"
-                                                                                               : "missing or 0";
-    }
+  for (const std::string& path : paths(key)) {
+    if (std::ranges::none_of(numbers(path), [](double value) { return value != 0; })) return none_of(path);
     if (changes_in_time(path)) return "set by `at`";
   }
   return "";
 }
 
+bool RemedySettings::concerns(const RemedyKey& key) const {
+  return !key.of_option || find(split(key.paths.front()).first) != nullptr;
+}
+
+/// Reason why a path has no number other than 0.
+std::string RemedySettings::none_of(const std::string& path) const {
+  const bool servo = find("actuator.voltage") != nullptr;
+  if (servo && path == "actuator.i_max") return "0: the stall current at `voltage`";
+  if (servo && path == "actuator.u_max" && find("supply") != nullptr) return "0: the voltage of the supply";
+  return "missing or 0";
+}
+
 double RemedySettings::value(const RemedyKey& key) const {
-  const Node* node = find(key.paths.front());
+  const Node* node = find(paths(key).front());
   const std::optional<double> only = node == nullptr || key.paths.size() > 1 ? std::nullopt : number(*node);
   return only.value_or(std::numeric_limits<double>::quiet_NaN());
 }
@@ -163,7 +198,7 @@ void RemedySettings::add_scaled(const std::string& path, double factor, std::vec
 
 std::vector<std::string> RemedySettings::scaled(const RemedyKey& key, double factor) const {
   std::vector<std::string> sets;
-  for (const char* path : key.paths) add_scaled(path, factor, sets);
+  for (const std::string& path : paths(key)) add_scaled(path, factor, sets);
   for (const char* path : key.also) add_scaled(path, factor, sets);
   const Node* duration = find("duration");
   if (key.stretches && factor < 1 && duration != nullptr) {
@@ -171,6 +206,11 @@ std::vector<std::string> RemedySettings::scaled(const RemedyKey& key, double fac
     sets.push_back(fmt::format("duration={}", std::ceil(number(*duration).value_or(0) / factor * kTick) / kTick));
   }
   return sets;
+}
+
+RemedySettings settings_of(const Scenario& scenario) {
+  const std::unique_ptr<Controller> controller = make_controller(scenario.controller, plugin_info(scenario));
+  return RemedySettings(resolved(scenario), controller == nullptr ? std::vector<PositionGains>() : controller->gains());
 }
 
 double rounded_setting(double value, double now, bool up) {

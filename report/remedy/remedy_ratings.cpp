@@ -19,6 +19,12 @@ bool same_ratings(const Scenario& scenario, const RemedySettings& settings, cons
   return settings.uniform(kind.key);
 }
 
+/// Key of a rating, without its section for a motor or a dock.
+std::string setting_of(const CheckKind& kind) {
+  const std::string key = kind.key;
+  return kind.group == CheckGroup::run ? key : key.substr(key.rfind('.') + 1);
+}
+
 bool exceeds(const Check& check) { return check.status == CheckStatus::fail || check.status == CheckStatus::too_close; }
 
 const CheckKind& kind_of(const Check& check) {
@@ -37,10 +43,8 @@ std::vector<RatingNeeded> ratings_needed(const Scenario& scenario, const Verdict
     if (!exceeds(check)) continue;
     const CheckKind& kind = kind_of(check);
     if (!kind.rating) continue;
-    const std::string path = kind.key;
-    ratings.push_back({check.id, check.worst, path.substr(path.rfind('.') + 1),
-                       rounded_setting(check.value * (1 + check.error), 0, true), check.limit, check.unit, check.parts,
-                       same_ratings(scenario, settings, kind)});
+    ratings.push_back({check.id, check.worst, setting_of(kind), rounded_setting(check.value * (1 + check.error), 0, true),
+                       check.limit, check.unit, check.parts, same_ratings(scenario, settings, kind)});
   }
   return ratings;
 }

@@ -11,8 +11,8 @@ namespace gaitlab::report {
 
 /// A rated load without effect on the motion, and a sufficient rating.
 struct RatingNeeded {
-  std::string check, part;  ///< the part that exceeds its rating most
-  std::string setting;      ///< last part of the key, such as `i_continuous`
+  std::string check, part;  ///< the part that exceeds its rating most; "" for the supply
+  std::string setting;      ///< the key, without its section for a motor or dock: `i_continuous`, `supply.current`
   double rating = 0, now = 0;
   std::string unit;
   std::size_t parts = 1;  ///< number of parts beyond their ratings

@@ -18,8 +18,8 @@ constexpr std::string_view kDock = "dock_";
 constexpr double kFirst = 0.201, kLast = 4.99;  // factors at the ends of the range, with a margin for rounding
 
 /// Names of a setting's keys: `u_max`, or `u_max and i_max together`.
-std::string subject(const RemedyKey& key) {
-  if (key.paths.size() == 1) return key.name;
+std::string subject(const Remedy& remedy, const RemedyKey& key) {
+  if (key.paths.size() == 1) return remedy.settings.name(key);
   std::vector<std::string> names;
   for (const std::string path : key.paths) names.push_back(path.substr(path.rfind('.') + 1));
   return fmt::format("{} together", fmt::join(names, " and "));
@@ -43,7 +43,7 @@ std::string before(const Remedy& remedy, const RemedyKey& key) {
 /// both ends of the range.
 std::string change(const Remedy& remedy, const RemedyAnswer& answer) {
   const RemedyKey& key = *answer.key;
-  const std::string name = subject(key), from = value_text(remedy, key, answer.factor);
+  const std::string name = subject(remedy, key), from = value_text(remedy, key, answer.factor);
   const bool value = has_value(remedy, key);
   if (answer.until >= kLast || answer.until <= kFirst) {
     const char* const bound = answer.up ? (value ? ">=" : "at least") : (value ? "<=" : "at most");
@@ -72,7 +72,7 @@ std::string rating_text(const RatingNeeded& rating) {
   const std::string value = fmt::format("{:.4g} {}", rating.rating, rating.unit);
   const std::string needed =
       dock ? fmt::format("docks that hold {} of {}", value, load) : fmt::format("{} >= {}", rating.setting, value);
-  return fmt::format("{} (now {:.4g} {}; {})", needed, rating.now, rating.unit, parts);
+  return fmt::format("{} (now {:.4g} {}{})", needed, rating.now, rating.unit, parts.empty() ? "" : "; " + parts);
 }
 
 /// `a, b or c`
@@ -91,8 +91,8 @@ std::vector<std::string> unmoved(const Remedy& remedy) {
     const auto moves = [&](const RemedyAnswer& a) {
       return a.key == answer.key && (a.crosses || a.stopped || !a.refused.empty());
     };
-    if (std::ranges::none_of(remedy.answers, moves) && std::ranges::count(names, subject(*answer.key)) == 0)
-      names.push_back(subject(*answer.key));
+    if (std::ranges::none_of(remedy.answers, moves) && std::ranges::count(names, subject(remedy, *answer.key)) == 0)
+      names.push_back(subject(remedy, *answer.key));
   }
   return names;
 }
@@ -107,7 +107,7 @@ class Lines {
 
 /// `frequency up to 0.34 Hz (now 0.25 Hz)`
 std::string reserve(const Remedy& remedy, const RemedyAnswer& answer) {
-  return fmt::format("{} {} {}{}", subject(*answer.key), answer.up ? "up to" : "down to",
+  return fmt::format("{} {} {}{}", subject(remedy, *answer.key), answer.up ? "up to" : "down to",
                      value_text(remedy, *answer.key, answer.factor), before(remedy, *answer.key));
 }
 
@@ -167,9 +167,9 @@ std::string reason(const std::string& refused) {
 /// `amplitude is tried only up to 1.196 rad, because 1.894 rad is refused: expected 0 to 1.5 rad`
 std::string refusal(const Remedy& remedy, const RemedyAnswer& answer) {
   const RemedyKey& key = *answer.key;
-  return fmt::format("{} {} tried only {} {}, because {} is refused: {}", subject(key), key.paths.size() > 1 ? "are" : "is",
-                     answer.up ? "up to" : "down to", value_text(remedy, key, answer.until),
-                     value_text(remedy, key, answer.refused_at), reason(answer.refused));
+  return fmt::format("{} {} tried only {} {}, because {} is refused: {}", subject(remedy, key),
+                     key.paths.size() > 1 ? "are" : "is", answer.up ? "up to" : "down to",
+                     value_text(remedy, key, answer.until), value_text(remedy, key, answer.refused_at), reason(answer.refused));
 }
 
 /// Lines on a search that was interrupted: the answers without a confirming run, and the settings that were not tried to the
@@ -178,7 +178,7 @@ void add_interruption(const Remedy& remedy, Lines& lines) {
   std::vector<std::string> untried;
   for (const RemedyAnswer& answer : remedy.answers) {
     if (answer.stopped && !answer.crosses)
-      untried.push_back(fmt::format("{} {}", answer.up ? "larger" : "smaller", subject(*answer.key)));
+      untried.push_back(fmt::format("{} {}", answer.up ? "larger" : "smaller", subject(remedy, *answer.key)));
     if (!answer.stopped || !answer.crosses) continue;
     lines.add(remedy.word == Word::feasible ? "probably stays feasible with " + reserve(remedy, answer)
                                             : "probably feasible with " + change(remedy, answer),
@@ -204,7 +204,8 @@ void add_open(const Remedy& remedy, Lines& lines) {
     if (!answer.refused.empty()) lines.add(refusal(remedy, answer));
   }
   std::vector<std::string> lacking;
-  for (const RemedyLack& lack : remedy.lacking) lacking.push_back(fmt::format("{} ({})", subject(*lack.key), lack.reason));
+  for (const RemedyLack& lack : remedy.lacking)
+    lacking.push_back(fmt::format("{} ({})", subject(remedy, *lack.key), lack.reason));
   if (!lacking.empty()) lines.add("not tried: " + fmt::format("{}", fmt::join(lacking, ", ")));
 }
 

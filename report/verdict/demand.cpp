@@ -9,8 +9,10 @@
 
 #include "core/plugin/plugin_instance.h"
 #include "core/scenario/built_robot.h"
+#include "core/scenario/buses.h"
 #include "core/scenario/change_section.h"
 #include "core/simulation/simulation.h"
+#include "report/analysis/bus.h"
 #include "report/analysis/fall.h"
 #include "report/analysis/plugin_names.h"
 
@@ -69,14 +71,16 @@ std::string lack(const Scenario& scenario, const std::vector<JudgedJoint>& own, 
   return text;
 }
 
-/// Keeps the voltage of a duty, and takes away the supply, before the limits are raised.
+/// Keeps the voltage of a duty, and takes away the resistance of the supply, before the limits are raised.
 void fix_duty(Scenario& scenario) {
-  const std::size_t joints = scenario.robot->joints.size();
   const std::unique_ptr<Actuator> actuator = make_motors(scenario);
   const In limit = actuator->command_limit();
   scenario.duty_volts.assign(limit.begin(), limit.end());
-  if (scenario.supply.any()) scenario.duty_volts.assign(joints, scenario.supply.voltage);
-  scenario.supply = {};
+  for (std::size_t j = 0; j < scenario.duty_volts.size(); ++j) {
+    if (const Supply& supply = supply_of(scenario, j); supply.any()) scenario.duty_volts[j] = supply.voltage;
+  }
+  scenario.supply.resistance = 0;
+  for (Battery& battery : scenario.batteries) battery.resistance = 0;
 }
 
 }  // namespace
@@ -98,6 +102,22 @@ bool raise_limits(Scenario& scenario) {
   return raise.found && !raise.zero;
 }
 
+std::optional<SupplyDemand> supply_demand(const Scenario& scenario, const Recording& record, const Judged& judged) {
+  const std::vector<MotorBus> all = buses(scenario);
+  const std::optional<BusUse> use = bus_use(record, 0, judged.first_row);
+  if (all.empty() || !all[0].module.empty() || !use) return {};
+  double voltage = 0;
+  for (const std::size_t j : all[0].joints) voltage = std::max(voltage, judged.joints[j].voltage_peak);
+  const double duration = record.supply.at(record.supply.rows() - 1, 0) - record.supply.at(judged.first_row, 0);
+  return SupplyDemand{voltage, use->current_peak, use->current_rms, scenario.supply.voltage * use->current * duration,
+                      duration};
+}
+
+std::string text_of(const SupplyDemand& demand) {
+  return fmt::format("the gait needs {:.3g} V, {:.3g} A RMS, {:.3g} A at most, and {:.3g} J in {:.3g} s from the supply",
+                     demand.voltage, demand.current_rms, demand.current_peak, demand.energy, demand.duration);
+}
+
 Demand demand(const Scenario& twin, const Recording& record, const Summary& summary,
               const std::function<void(double)>& progress) {
   Demand made;
@@ -110,7 +130,9 @@ Demand demand(const Scenario& twin, const Recording& record, const Summary& summ
     made.doubt = fmt::format("without motor limits the run breaks off: {}", error.what());
     return made;
   }
-  made.joints = judge(free, summary.limit_cycle, summary.gait.period, summary.gait.start).joints;
+  Judged judged = judge(free, summary.limit_cycle, summary.gait.period, summary.gait.start);
+  made.supply = supply_demand(twin, free, judged);
+  made.joints = std::move(judged.joints);
   made.known = made.joints.size() == summary.judged.joints.size();
   const bool limited = Judged::limited(made.joints) > 0;
   if (thrown_up(twin, free, record)) {
@@ -153,6 +175,10 @@ bool take_demand(Verdict& verdict, const std::string& json) try {
     with.demands.push_back({of.at("joint").get<std::string>(), number(of.at("voltage")), number(of.at("current")),
                             number(of.at("torque")), number(of.at("speed"))});
   }
+  if (const auto of = demand->find("supply"); of != demand->end()) {
+    with.supply_demand = {number(of->at("voltage")), number(of->at("current_peak")), number(of->at("current_rms")),
+                          number(of->at("energy")), number(of->at("duration"))};
+  }
   verdict = std::move(with);
   return true;
 } catch (const nlohmann::json::exception&) {  // the file was changed and is not valid
@@ -162,6 +188,7 @@ bool take_demand(Verdict& verdict, const std::string& json) try {
 void add_demand(Verdict& verdict, const Scenario& scenario, const Summary& summary, const Demand& demand) {
   verdict.demand_doubt = without_folders(demand.doubt, scenario);
   if (!demand.known) return;
+  verdict.supply_demand = demand.supply;
   const std::vector<JudgedJoint>& own = summary.judged.joints;
   for (std::size_t j = 0; j < own.size(); ++j) {
     if (!(own[j].limited() > 0)) continue;

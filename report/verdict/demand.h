@@ -1,6 +1,7 @@
 // The demand twin: a second run of the scenario with 20 times the motor limits, which shows the shortfall of the real motors.
 #pragma once
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,10 +17,18 @@ struct Demand {
   std::string doubt = {};                ///< reason why the demand is unknown or doubtful; empty otherwise
   bool known = false;                    ///< true if `joints` is filled in
   std::vector<JudgedJoint> joints = {};  ///< statistics of each joint of the twin, in the judged window of the real run
+  std::optional<SupplyDemand> supply = {};
 };
 
-/// Multiplies every limit of the scenario's actuator (every field declared as Fields::limit) by kDemandTimes. Limits that the
-/// scenario does not state are multiplied too. Returns false if the actuator has no limit, or a limit of 0.
+/// Demand of the scenario's supply in a run; nothing if there is none, or if a number is not finite.
+std::optional<SupplyDemand> supply_demand(const Scenario& scenario, const Recording& record, const Judged& judged);
+
+/// Sentence on the demand of a supply.
+std::string text_of(const SupplyDemand& demand);
+
+/// Multiplies every limit of the scenario's actuator (every field declared as Fields::limit) by kDemandTimes, and replaces the
+/// supply by one without resistance that bounds no command. Limits that the scenario does not state are multiplied too. Returns
+/// false if the actuator has no limit, or a limit of 0.
 bool raise_limits(Scenario& scenario);
 
 /// True if the robot jumps in the run `free` without motor limits, but not in its `own` run: the centre of mass rises higher

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "core/scenario/sensor_section.h"
-#include "core/settings/settings_numbers.h"
 #include "core/settings/wording.h"
 
 namespace gaitlab::report {
@@ -56,18 +55,13 @@ Excess thrown(const Scenario& s, const Recording& r) {
   return made;
 }
 
-/// Gains of a joint in the unit of the commands, `Kp 600 V/rad, Kd 0.6 V s/rad, `; empty without such gains.
+/// Gains of a joint, `Kp 600 V/rad, Kd 0.6 V s/rad, `; empty if the controller states no law.
 std::string gains(const Scenario& s, std::size_t joint) {
-  const SettingsNumbers settings(s.controller);
-  const std::string unit(make_controller(s.controller, plugin_info(s))->command_unit());
-  std::string text;
-  for (const std::string key : {"Kp", "Kd", "gain", "P", "D"}) {
-    const SettingsNumbers::Found* const gain = settings.find(key);
-    const bool of_pid = key.starts_with('K');
-    if (gain == nullptr || (!of_pid && (!gain->stated || gain->value[joint] == 0))) continue;
-    const std::string own = gain->unit.starts_with("V") ? unit + gain->unit.substr(1) : gain->unit;
-    text += fmt::format("{} {}, ", key, with_unit(gain->value[joint], own));
-  }
+  const std::vector<PositionGains> all = make_controller(s.controller, plugin_info(s))->gains();
+  if (all.empty()) return "";
+  const PositionGains& law = all[joint];
+  std::string text = fmt::format("{} {}, ", law.key, with_unit(law.P / law.per_key, law.unit));
+  if (law.D != 0) text += fmt::format("{} {}, ", law.key_of_D, with_unit(law.D, law.unit_of_D));
   return text;
 }
 

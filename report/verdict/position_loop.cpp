@@ -7,6 +7,7 @@
 
 #include "core/laws/dc_motor.h"
 #include "core/scenario/built_robot.h"
+#include "core/scenario/buses.h"
 #include "core/scenario/sensor_section.h"
 #include "core/settings/settings_numbers.h"
 
@@ -79,7 +80,7 @@ std::vector<PositionLoop> position_loops(const Scenario& s) {
   for (std::size_t j = 0; j < s.robot->joints.size(); ++j) {
     const DcMotor& motor = motors[j];
     const Measured& angle = angles[j];
-    const double volts = !duty ? 1 : s.supply.any() ? s.supply.voltage : motor.u_max;  // per unit of the command
+    const double volts = !duty ? 1 : supply_of(s, j).any() ? supply_of(s, j).voltage : motor.u_max;  // per unit of the command
     const double Kp = volts * gains[j].P;
     const double per_volt = motor.u_max > 0 ? motor.unlimited(motor.u_max, 0).torque / motor.u_max : 0;  // N m/V
     const double stall = motor(motor.u_max, 0).torque;

@@ -6,8 +6,10 @@
 #include <cmath>
 
 #include "core/settings/wording.h"
+#include "report/analysis/bus.h"
 #include "report/analysis/changes.h"
 #include "report/analysis/posture.h"
+#include "report/verdict/demand.h"
 #include "report/verdict/numbers/number_texts.h"
 
 namespace gaitlab::report {
@@ -91,6 +93,14 @@ std::string gait(const RunData& run) {
   return text;
 }
 
+/// `42.3 min: 1.8 A h at a mean current of 2.55 A`; empty without a capacity or a current.
+std::string endurance_text(const RunData& run) {
+  const Endurance least = endurance(run.scenario, run.record, run.summary.judged.first_row);
+  if (!std::isfinite(least.minutes)) return "";
+  return fmt::format("{:.3g} min: {:.4g} A h at a mean current of {:.3g} A{}", least.minutes, least.capacity, least.current,
+                     least.module.empty() ? "" : ", battery of " + least.module);
+}
+
 Tone tone_of(Word word) { return word == Word::feasible ? Tone::good : word == Word::not_judged ? Tone::doubtful : Tone::bad; }
 
 }  // namespace
@@ -121,6 +131,7 @@ std::vector<ScreenLine> first_screen(const RunData& run, const Verdict& verdict,
   if (const std::string tightest = tightest_text(verdict); !led && verdict.unstable.empty() && !tightest.empty())
     screen.add("tightest", tightest);
   if (!verdict.demand_doubt.empty()) screen.add("demand", verdict.demand_doubt, Tone::doubtful);
+  if (verdict.supply_demand) screen.add(verdict.demand_doubt.empty() ? "demand" : "", text_of(*verdict.supply_demand));
   if (!verdict.unstable.empty()) return screen.lines;  // all else follows from it
   add_kind(screen, verdict.failures(), led ? 1 : 0, most, "fails", Tone::bad);
   add_kind(screen, of_status(verdict, CheckStatus::too_close), 0, most, "too close", Tone::doubtful);
@@ -132,6 +143,7 @@ std::vector<ScreenLine> first_screen(const RunData& run, const Verdict& verdict,
   std::erase_if(open, [](const Check* check) { return !check->concerns; });
   if (!open.empty()) screen.add("unknown", names(open) + " (gaitlab explain verdict)");
   if (const std::string text = gait(run); !text.empty()) screen.add("gait", text);
+  if (const std::string text = endurance_text(run); !text.empty()) screen.add("endurance", text);
   const auto log = std::ranges::find(verdict.checks, "measured", &Check::id);
   if (log != verdict.checks.end() && log->concerns)
     screen.add("measured", log->text, log->status == CheckStatus::pass ? Tone::plain : Tone::doubtful);

@@ -38,6 +38,13 @@ struct JointDemand {
   double voltage, current, torque, speed;  ///< V, A, N m, rad/s
 };
 
+/// Demand of a supply (demand.h) in the judged window.
+struct SupplyDemand {
+  double voltage;                    ///< V, largest magnitude of a motor's voltage: the bus must hold as much
+  double current_peak, current_rms;  ///< A, from the supply at its open-circuit voltage
+  double energy, duration;           ///< J, drawn in the window, and its length, s
+};
+
 /// A check that fails in a draw, and the part with the least margin ("" if there is none).
 struct FailedCheck {
   std::string check, part;
@@ -84,8 +91,9 @@ struct Verdict {
   std::string figures = {};      ///< sentence on the sources of motor and dock values (motors.h): `motors: chosen figures`
   std::string first_joint = {};  ///< joint that was first at a motor limit in the whole run; empty if none
   double first_time = 0;         ///< s, time when `first_joint` was at its limit
-  std::vector<JointDemand> demands = {};  ///< empty if no joint reaches a limit, or if the demand was not computed
-  std::string demand_doubt = {};          ///< reason why the demands are unknown or doubtful; empty otherwise
+  std::vector<JointDemand> demands = {};           ///< empty if no joint reaches a limit, or if the demand was not computed
+  std::string demand_doubt = {};                   ///< reason why the demands are unknown or doubtful; empty otherwise
+  std::optional<SupplyDemand> supply_demand = {};  ///< nothing without a supply, or if the demand was not computed
   /// Word of the run without the friction that is only chosen (frictionless.h); nothing if it was not simulated.
   std::optional<Word> without_friction = {};
   /// Id of the deciding check of `failed` and `infeasible`. If a check of the robot as a whole (group `run`) causes the word,

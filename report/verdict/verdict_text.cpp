@@ -88,6 +88,13 @@ Json demand_of(const Verdict& verdict) {
                                 {"torque", json_number(d.torque)},
                                 {"speed", json_number(d.speed)}});
   }
+  if (const std::optional<SupplyDemand>& of = verdict.supply_demand) {
+    demand["supply"] = {{"voltage", json_number(of->voltage)},
+                        {"current_peak", json_number(of->current_peak)},
+                        {"current_rms", json_number(of->current_rms)},
+                        {"energy", json_number(of->energy)},
+                        {"duration", json_number(of->duration)}};
+  }
   return demand;
 }
 
@@ -123,7 +130,7 @@ std::string to_json(const Verdict& verdict) {
     if (c.concerns) json["checks"].push_back(json_of(c));
   }
   if (!verdict.faults.empty()) json["faults"] = verdict.faults;
-  if (!verdict.demands.empty() || !verdict.demand_doubt.empty()) json["demand"] = demand_of(verdict);
+  if (!verdict.demands.empty() || !verdict.demand_doubt.empty() || verdict.supply_demand) json["demand"] = demand_of(verdict);
   if (verdict.without_friction) json["without_chosen_friction"] = name_of(*verdict.without_friction);
   if (!verdict.draws.empty()) json["draws"] = draws_of(verdict);
   return json.dump(2) + "\n";

@@ -140,5 +140,30 @@ TEST(RcServo, UnitsOfTheMakers) {
   EXPECT_NEAR(settings.proportional(0), 5.2765, 1e-3) << "STS3215";
 }
 
+/// Latencies of single joints change in a run (section `at`) as long as the longest one stays: the goal is then the set point
+/// of the new time.
+TEST(RcServo, TheLatencyOfAJointMayChangeInARun) {
+  constexpr double kPeriod = 0.5;
+  RobotInfo robot;
+  robot.joints.resize(2);
+  robot.control_period = kPeriod;
+  const auto servo = [&](double periods) {
+    RcServo::Settings settings = with_gain(1);
+    settings.latency.each = {periods * kPeriod, 3 * kPeriod};
+    return RcServo(robot, settings);
+  };
+  const std::vector<double> angle{-1, -1}, zero{0, 0};
+  std::vector<double> x(servo(1).states()), command{0, 0};
+  const auto goal = [&](int tick, int latency) { return tick < latency ? -1.0 : tick - latency; };
+  for (int tick = 0; tick < 20; ++tick) {
+    const int latency = tick < 7 ? 1 : tick < 14 ? 3 : tick < 17 ? 2 : 0;
+    const double now = tick;
+    const std::vector<double> setpoint{now, now};
+    servo(latency).update({0, kPeriod, angle, zero, zero, zero}, setpoint, zero, x, command);
+    EXPECT_EQ(command[0], goal(tick, latency) + 1) << tick;
+    EXPECT_EQ(command[1], goal(tick, 3) + 1) << tick;
+  }
+}
+
 }  // namespace
 }  // namespace gaitlab::test

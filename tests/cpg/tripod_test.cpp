@@ -80,6 +80,17 @@ TEST(Tripod, AlternatingWithHalfTheTimeOnTheGroundIsTheGaitThatWasTried) {
   }
 }
 
+TEST(Tripod, AHingeAboutTheOppositeAxisTurnsTheOtherWay) {
+  const RobotInfo robot = robot_of(kHexapod);
+  const std::vector<double> q = setpoints(Tripod(robot, {}), robot.joints.size(), 2.3);
+  for (std::size_t turned = 0; turned < q.size(); ++turned) {
+    RobotInfo other = robot;
+    for (double& along : other.joints[turned].axis) along = -along;
+    const std::vector<double> found = setpoints(Tripod(other, {}), robot.joints.size(), 2.3);
+    for (std::size_t j = 0; j < q.size(); ++j) EXPECT_EQ(found[j], j == turned ? -q[j] : q[j]) << robot.joints[j].name;
+  }
+}
+
 TEST(Tripod, ASideDockOnALegIsItsKnee) {
   std::vector<std::array<int, 5>> rows = kHexapod;
   rows.push_back({0, 11, 5, 5, 0});  // module 11, docked sideways to leg 5

@@ -8,9 +8,11 @@ delay by a Gaussian of -3 dB at 8 Hz, are the set points of a loop so stiff that
 needs. The logged torques, by the currents of the drives, are smoothed likewise. The friction of the authors' program is
 b w + cf arctan(100 w), which is pi/2 cf where a joint turns. Needs numpy.
 """
-import csv, pathlib, subprocess, sys, tempfile
+import pathlib, sys, tempfile
 
 import numpy as np
+
+import replay
 
 LOGS = pathlib.Path(__file__).resolve().parents[1] / "measured/double-pendulum"
 CUT = 8  # Hz
@@ -56,10 +58,8 @@ def smooth(x, dt):
 
 def read_log(path):
     """Times, smoothed angles and torques, in even steps."""
-    with open(path, encoding="utf-8") as file:
-        rows = list(csv.DictReader(file))
-    column = {name: np.array([float(row[name]) for row in rows]) for name in rows[0]}
-    t = np.linspace(column["t"][0], column["t"][-1], len(rows))
+    column = replay.read_columns(path)
+    t = np.linspace(column["t"][0], column["t"][-1], len(column["t"]))
     even = {name: smooth(np.interp(t, column["t"], column[name]), t[1] - t[0]) for name in column}
     return t - t[0], [even["angle1"], even["angle2"]], [even["torque1"], even["torque2"]]
 
@@ -87,12 +87,8 @@ def track(program, folder, p, t, q, dry):
     (folder / "s.yaml").write_text(SCENARIO.format(
         start=[x[0] for x in q], dry=dry, rotor=p["gr"]**2 * p["Ir"], gains=GAINS, period=PERIOD, row=ROW,
         duration=f"{t[-1] // ROW * ROW:.3f}", **p), encoding="utf-8")
-    subprocess.run([program, "run", "s.yaml", "--out", "run", "--no-report", "--quiet", "--format", "csv"], cwd=folder, check=True)
-    with open(folder / "run/trace.csv", encoding="utf-8") as file:
-        rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
-    of = {name.split()[0]: name for name in rows[0]}
-    at = lambda name: np.interp(t, *(np.array([float(row[of[one]]) for row in rows]) for one in ("t", name)))
-    return [at(f"joint.{j}.voltage_command") for j in range(2)]
+    trace = replay.run(program, folder, "run")
+    return [np.interp(t, trace["t"], trace[f"joint.{j}.voltage_command"]) for j in range(2)]
 
 
 def main():
@@ -121,9 +117,7 @@ def main():
             wrong.append(f"without friction: mean error {np.mean(errors):.3f} N m; expected above 0.2, as in these logs")
         if not max(formula) <= FORMULA:
             wrong.append(f"dry friction {name}: {max(formula):.4f} N m from the textbook's torques; expected at most {FORMULA}")
-    for one in wrong:
-        print("WRONG", one)
-    return 1 if wrong else 0
+    return replay.exit_code(wrong)
 
 
 if __name__ == "__main__":

@@ -118,6 +118,8 @@ RIGHT_MODULES = [
     BODY + "connectors: {}\n",
     MODULE + PAIR + "range: [-1, 1]}]\n",
     MODULE + PAIR + "range: free, drive: none, damping: 1}]\n",
+    MODULE + PAIR + "range: [-1, 1], play: 0.01, play_stiffness: 80, encoder: motor}]\n",
+    MODULE + PAIR + "range: [-1, 1]}]\nbattery: {voltage: 7, resistance: 0.1, capacity: 2, regenerates: true}\n",
     MODULE + PAIR + "range: [-1, 1], actuator: {R: 3}, controller: {Kp: 2}}]\nactuator: {type: dc_motor, R: 2}\n",
     MODULE + PAIR + "range: [-1, 1]}]\nactuator: {type: servo, voltage: 5, stall_torque: 1, no_load_speed: 5, source: x}\n"
     "controller: {type: pid, Kp: 3, source: x}\n",
@@ -142,6 +144,9 @@ WRONG_MODULES = [
     MODULE + PAIR + "}]\n",
     MODULE + PAIR + "range: loose}]\n",
     MODULE + PAIR + "range: free, drive: loose}]\n",
+    MODULE + PAIR + "range: free, play: -0.01}]\n",
+    MODULE + PAIR + "range: free, play: 0.01, encoder: link}]\n",
+    MODULE + PAIR + "range: free}]\nbattery: {voltage: 0}\n",
     MODULE + PAIR + "range: [-1, 1]}]\nactuator: {type: servomotor}\n",
     MODULE + PAIR + "range: [-1, 1]}]\nactuator: {type: dc_motor, Rr: 2}\n",
     MODULE + PAIR + "range: [-1, 1]}]\ncontroller: {type: pid, period: 0.01}\n",

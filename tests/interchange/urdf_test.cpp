@@ -6,7 +6,10 @@
 
 #include "core/dynamics/body_tree.h"
 #include "interchange/mjcf.h"
+#include "interchange/robot_xml.h"
+#include "tests/program/fixture.h"
 #include "tests/program/random_scenario.h"
+#include "tests/program/rod.h"
 #include "tests/validation.h"
 
 namespace gaitlab::test {
@@ -175,6 +178,29 @@ TEST(Urdf, RollPitchYawIsExactAtTheTop) {
     const Mat3 R = rpy({random.uniform(-3, 3), pitch, random.uniform(-3, 3)});
     EXPECT_LT((rpy(to_rpy(R)) - R).cwiseAbs().maxCoeff(), 1e-15 * 5) << i;  // some rounding errors
   }
+}
+
+/// Torque at rest of a motor with 2 N m and 8 rad/s at 6 V, and its speed without load, under the largest voltage that the
+/// controller and the supply let through.
+TEST(MotorLimits, AreThoseOfTheLargestDutyAndOfTheSupply) {
+  const auto expect = [](const std::string& keys, double volts) {
+    const Scenario s = scenario(rod() +
+                                "ground: {type: none}\ncontact: {on: none}\nduration: 1\nactuator: {type: servo, voltage: 6, "
+                                "stall_torque: 2, no_load_speed: 8, load_friction: 0, dry_friction: 0, viscous_friction: 0}\n" +
+                                keys);
+    const auto model = urdf::parseURDF(to_urdf(s));
+    const urdf::JointLimits& limits = *model->getJoint("m0/swing")->limits;
+    EXPECT_NEAR(limits.effort, 2 * std::min(1.0, volts / 6), 1e-12) << keys;  // at most the stall torque of the sheet
+    EXPECT_NEAR(limits.velocity, 8 * volts / 6, 1e-9) << keys;
+    const std::string force = text({-limits.effort, limits.effort});
+    EXPECT_NE(to_mjcf(s, MjcfModel::walking).find("forcerange=\"" + force + "\""), std::string::npos) << keys;
+    EXPECT_NE(to_mjcf(s, MjcfModel::strict).find("ctrlrange=\"" + force + "\""), std::string::npos) << keys;
+  };
+  expect("controller: {type: rc_servo}\n", 6);
+  expect("controller: {type: rc_servo, limit: 0.4}\n", 2.4);
+  expect("controller: {type: rc_servo, limit: 0.4}\nsupply: {voltage: 5}\n", 2);
+  expect("controller: {type: pid}\nsupply: {voltage: 5}\n", 5);
+  expect("controller: {type: pid}\nsupply: {voltage: 7.5}\n", 7.5);
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ using namespace report;
 
 const std::string kBench =
     "ground: {type: none}\ncontact: {on: none}\nphysics: {engine: articulated, estimate: off}\n"
-    "actuator: {type: servo, voltage: 6, stall_torque: 8, no_load_speed: 6, stall_current: 2.5}\n"
+    "actuator: {type: servo, voltage: 6, stall_torque: 8, no_load_speed: 6, stall_current: 12}\n"
     "cpg: {type: sine, frequency: 0.5, amplitude: 0.6}\nduration: 2\n";
 const std::string kLoop = "controller: {type: rc_servo, gain: 4, period: 0.01}\n";
 
@@ -113,7 +113,7 @@ TEST(Measured, IsAQuantityOfStudies) {
       run_measure({"measured.angle.mae", "measured.angle.rms[m0/swing]", "measured.limit.logged"}, *s.robot);
   Simulation rollout({&s, 1}, measure.reads);
   rollout.run();
-  const std::vector<double> values = measure.measure(s, rollout.take_recording(0)).quantities;
+  const std::vector<double> values = measure.measured(s, rollout.take_recording(0)).quantities;
   const std::optional<LogErrors> errors = log_errors(s, run(s));
   EXPECT_EQ(values[0], errors->joints[0].of(Logged::angle)->mae);
   EXPECT_EQ(values[1], errors->joints[0].of(Logged::angle)->rms);
@@ -168,7 +168,7 @@ TEST(Measured, RefusesALogWithItsPlace) {
   refused("  columns: {m0/swim: {angle: a}}\n" + log, "no joint 'm0/swim'; did you mean 'm0/swing'?");
   refused("  columns: {m0/swing: {angle: a, angle_scale: 0}}\n" + log, "angle_scale is 0");
   refused("  columns: {m0/swing: {angle: a, angel: b}}\n" + log, "unknown key 'angel'");
-  refused("  time: time\n" + columns + log, "the log has no column 'time'; did you mean");
+  refused("  time: time\n" + columns + log, "the log has no column 'time'; known columns: t, a");
 }
 
 }  // namespace

@@ -61,7 +61,7 @@ Figure figure(const Scenario& s, std::size_t joint, double from, double to) {
 }
 
 Figure caterpillar(const Sets& sets = {}) { return figure(shipped("paper-caterpillar.yaml", sets), 7, 6, 14); }
-Figure hexapod(const Sets& sets = {}) {
+Figure paper_hexapod(const Sets& sets = {}) {
   const Scenario s = shipped("paper-hexapod.yaml", sets);
   EXPECT_EQ(s.robot->joints[5].name, "m2/passive");
   return figure(s, 5, 4, 8);
@@ -122,7 +122,7 @@ Sets unmet_spine(const Figure& f) {
 TEST(Paper, FigureNineIsMetByTheCaterpillar) { EXPECT_EQ(unmet(caterpillar()), Sets()); }
 
 TEST(Paper, FiguresThirteenAndFourteenAreMetByTheHexapod) {
-  const Figure f = hexapod();
+  const Figure f = paper_hexapod();
   EXPECT_EQ(unmet_spine(f), Sets());
   validate({"closed.spine_torque", "largest torque of the hexapod's central spine joint, paper-hexapod.yaml",
             "rigid robot on three points", "N m"},
@@ -168,10 +168,10 @@ TEST(Paper, ThirteenOtherSettingsMissIt) {
 
 /// All but two of the settings above also violate a number or a rank of figures 13 and 14.
 TEST(Paper, ElevenOfThemMissTheSpineToo) {
-  EXPECT_EQ(numbers(unmet_spine(hexapod({"duration=8"}))), Sets());
+  EXPECT_EQ(numbers(unmet_spine(paper_hexapod({"duration=8"}))), Sets());
   for (const std::string set : kOtherSettings) {
     const bool met = set == "contact.stiffness=5e3" || set == "ground.friction=0.4";
-    EXPECT_EQ(numbers(unmet_spine(hexapod({set, "duration=8"}))).empty(), met) << set;
+    EXPECT_EQ(numbers(unmet_spine(paper_hexapod({set, "duration=8"}))).empty(), met) << set;
   }
 }
 
@@ -179,18 +179,18 @@ TEST(Paper, ElevenOfThemMissTheSpineToo) {
 /// 15 ms. The stiffness alone therefore decides the torques.
 TEST(Paper, StiffnessDecidesNotThePeriod) {
   EXPECT_EQ(unmet(caterpillar({"controller.period=0.0025"})), Sets());
-  EXPECT_EQ(unmet_spine(hexapod({"controller.period=0.0025"})), Sets());
+  EXPECT_EQ(unmet_spine(paper_hexapod({"controller.period=0.0025"})), Sets());
   const Sets strong{"controller.period=0.015", "actuator.R=0.43", "controller.Kp=157"};
   const Extremes slow =
       caterpillar(strong).torque;  // the tolerance of 3 % is for a command every 15 ms instead of every millisecond
   EXPECT_TRUE(near(slow.low, -1.45, 0.03) && near(slow.high, 1.44, 0.03)) << slow.low << " " << slow.high;
-  EXPECT_TRUE(near(hexapod(strong).torque.low, -1.08, 0.03));
+  EXPECT_TRUE(near(paper_hexapod(strong).torque.low, -1.08, 0.03));
   // Directional gears at rest are between both directions, so that Kp 1099 is 600 N m/rad. The gears differ if the joint moves;
   // the measured difference is 4.6 %. A spine joint at rest sticks, and can bear a small torque of the other sign.
   const Sets directional{"actuator.efficiency_model=directional", "controller.Kp=1099"};
   const Extremes driven = caterpillar(directional).torque;
   EXPECT_TRUE(near(driven.low, -1.45, 0.06) && near(driven.high, 1.44, 0.06)) << driven.low << " " << driven.high;
-  EXPECT_EQ(unmet_spine(hexapod(directional)), Sets{"one sign"});
+  EXPECT_EQ(unmet_spine(paper_hexapod(directional)), Sets{"one sign"});
 }
 
 /// Tests the scenarios with the default gains, which a real module can have. The tolerances are the last digit in
@@ -218,9 +218,9 @@ TEST(Paper, FigureNineIsMetOnBullet) {
 }
 
 TEST(Paper, FiguresThirteenAndFourteenAreMetOnBullet) {
-  const Figure f = hexapod({"physics.engine=bullet"});
+  const Figure f = paper_hexapod({"physics.engine=bullet"});
   EXPECT_EQ(unmet_spine(f), Sets());
-  expect_equal(f, hexapod());
+  expect_equal(f, paper_hexapod());
 }
 
 }  // namespace

@@ -184,7 +184,7 @@ TEST(Published, ChronoRevoluteAgainstAdams) {
                      "as the position");
       // Acceleration at which the torque of the joint is zero. The torque is a linear function of the acceleration.
       InverseDynamics dynamics(robot);
-      Acceleration acceleration{Vec3::Zero(), Vec3::Zero(), {0}};
+      Acceleration acceleration{Vec3::Zero(), Vec3::Zero(), {0}, {}};
       dynamics.update(kinematics, acceleration, pendulum.physics.gravity);
       const double held = dynamics.torques()[0];
       acceleration.joints[0] = 1;

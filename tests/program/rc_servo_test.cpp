@@ -93,5 +93,40 @@ TEST(RcServo, RefusesAGainThatIsStatedTwice) {
                  "controller 'rc_servo' commands duty, but actuator 'torque' takes N m");
 }
 
+TEST(RcServo, ALatencyThatIsRoundedHasANote) {
+  const auto notes = [](const std::string& keys) {
+    std::string all;
+    const Scenario s = scenario(rod() + "actuator: {type: servo, voltage: 6, stall_torque: 2, no_load_speed: 8}\n" +
+                                "controller: {type: rc_servo, " + keys + "}\nduration: 1\n");
+    for (const Note& note : s.notes) all += note.text;
+    return all;
+  };
+  EXPECT_EQ(notes("period: 0.005, latency: 0.007"),
+            "controller: latency 0.007 s acts as 0.01 s, the next whole number of control periods (controller.period 0.005 s)");
+  EXPECT_EQ(notes("period: 0.001, latency: 0.007"), "");
+  EXPECT_EQ(notes("period: 0.005"), "");
+  EXPECT_TRUE(
+      contains(notes("period: 0.005, latency: {m0/swing: 0.012}"), "latency 0.012 s of joint m0/swing acts as 0.015 s"));
+  const Folder folder;
+  const std::string file =
+      folder.write("s.yaml", rod() + "actuator: {type: servo, voltage: 6, stall_torque: 2, no_load_speed: 8}\n" +
+                                 "controller: {type: rc_servo, latency: 0.007, period: 0.01}\nduration: 0.1\n");
+  for (const char* const command : {"check", "run --no-report --out r"}) {
+    const Result result = gaitlab(fmt::format("{} s.yaml", command), folder.path().string());
+    EXPECT_TRUE(contains(result.err, "s.yaml: note: controller: latency 0.007 s acts as 0.01 s")) << result.err;
+  }
+  const ScenarioTemplate all(file, {}, catalog());
+  EXPECT_EQ(all.with({"controller.latency=0.01"}).notes.size(), 0U) << "the note of the template is not kept";
+}
+
+TEST(RcServo, ALatencyInARunIsRefusedWithItsReason) {
+  const std::string text = rod() + "actuator: {type: servo, voltage: 6, stall_torque: 2, no_load_speed: 8}\n" +
+                           "controller: {type: rc_servo, latency: 0.01, period: 0.005}\nduration: 1\n";
+  expect_refusal(
+      text + "at: [{t: 0.5, set: {controller.latency: 0.02}}]\n",
+      "set changes the controller's 8 states to 10 (latency: Time from a set point until it acts; the longest one is "
+      "a state per control period); expected settings that keep the number of states");
+}
+
 }  // namespace
 }  // namespace gaitlab::test

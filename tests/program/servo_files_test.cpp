@@ -30,10 +30,28 @@ TEST(ServoFiles, EveryShippedServoIsAMotorWithItsFirmware) {
     const double stall = std::stod(document.find("actuator")->find("stall_torque")->text);
     const double before_losses = motor.efficiency * motor.Kt * motor.gear * motor.u_max / motor.R;
     EXPECT_NEAR(before_losses, stall, 1e-9 * stall) << name;
-    EXPECT_TRUE(contains(s.actuator_source, document.find("source")->text.substr(0, 20))) << s.actuator_source;
+    for (const Node& source : document.find("sources")->items)
+      EXPECT_TRUE(contains(s.actuator_source, source.find("text")->text)) << s.actuator_source;
     EXPECT_FALSE(contains(resolved(s), "model:")) << "a recorded scenario needs no servo file";
   }
   EXPECT_GE(firmware, 4);
+}
+
+/// A run is read back with the source that it had, however often.
+TEST(ServoFiles, TheSourceOfARecordIsNotNested) {
+  const Folder folder;
+  for (const std::string actuator : {"type: servo, model: s3003", "type: servo, model: mx-64, u_max: 9, source: measured",
+                                     "type: servo, voltage: 5, stall_torque: 1, no_load_speed: 6, source: a sheet",
+                                     "type: dc_motor, R: 4, source: a sheet"}) {
+    const Scenario s = scenario(with(actuator));
+    std::string text = resolved(s);
+    for (int again = 0; again < 3; ++again) {
+      const Scenario record = read_record(text, folder / "resolved.yaml", {}, catalog());
+      EXPECT_EQ(record.actuator_source, s.actuator_source);
+      text = resolved(record);
+    }
+    EXPECT_EQ(text, resolved(s));
+  }
 }
 
 TEST(ServoFiles, AKeyOfTheScenarioCountsFirst) {
@@ -104,6 +122,87 @@ TEST(ServoFiles, AreFoundBesideTheScenario) {
     ASSERT_EQ(error.problems().size(), 1U) << error.what();
     EXPECT_TRUE(contains(error.what(), "a servo file cannot name another one")) << error.what();
   }
+}
+
+TEST(ServoFiles, ExplainIsATableOfNumbersWithTheirSources) {
+  for (const auto& [name, file] : shipped_files("servo")) {
+    const std::string text = gaitlab("explain servo " + name, "/tmp").out;
+    const Node document = read_yaml(file);
+    for (const char* const section : {"actuator", "controller"}) {
+      const Node* const map = document.find(section);
+      for (std::size_t i = 0; map != nullptr && i < map->keys.size(); ++i) {
+        const std::string& key = map->keys[i].first;
+        const std::size_t at = key == "type" ? 0 : text.find("  " + key + " ");
+        ASSERT_NE(at, std::string::npos) << name << " " << key << "\n" << text;
+        const std::string line = text.substr(at, text.find('\n', at) - at);
+        if (key == "type") continue;
+        EXPECT_TRUE(contains(line, "data sheet  [") || contains(line, "identified  [")) << line;
+      }
+    }
+    for (const char* const key : {"dry_friction", "viscous_friction", "load_friction", "rotor_inertia"}) {
+      if (document.find("actuator")->find(key) != nullptr) continue;
+      const std::size_t at = text.find(key);
+      ASSERT_NE(at, std::string::npos) << text;
+      EXPECT_TRUE(contains(text.substr(at, text.find('\n', at) - at), "chosen")) << text;
+    }
+    EXPECT_TRUE(contains(text, "file: " + file)) << text;
+  }
+  const std::string text = gaitlab("explain servo xl330-m288", "/tmp").out;
+  // P 400 of P / 256 PWM per 0.088 degree of 885: 400 / 256 * 4096 / (2 pi) / 885
+  EXPECT_TRUE(contains(text, "1.151 /rad ")) << text;
+  EXPECT_TRUE(contains(text, "0.0156 N m ")) << "3 % of 0.52 N m";
+}
+
+TEST(ServoFiles, EveryNumberHasOneSource) {
+  const Folder folder;
+  std::filesystem::create_directory(folder / "servos");
+  const std::string file = folder.write("s.yaml", with("type: servo, model: mine"));
+  const auto expect = [&](const std::string& sources, const std::string& error) {
+    folder.write("servos/mine.yaml", "gaitlab_servo: 1\nname: mine\n" + sources +
+                                         "actuator: {type: servo, voltage: 5, stall_torque: 1, no_load_speed: 6}\n");
+    try {
+      const Scenario s = read_scenario(file, {}, catalog());
+      EXPECT_EQ(error, "") << s.actuator_source;
+    } catch (const InputError& wrong) {
+      EXPECT_TRUE(!error.empty() && contains(wrong.what(), error)) << wrong.what();
+    }
+  };
+  expect("sources: [{of: [voltage, stall_torque, no_load_speed], kind: data sheet, text: a sheet}]\n", "");
+  expect("sources: [{of: [voltage, stall_torque], kind: identified, text: a bench}]\n",
+         "servos/mine.yaml:4:54: error: 'no_load_speed' has no source; expected its name in an `of` of sources");
+  expect("sources: [{of: [voltage, stall_torqe, no_load_speed], kind: chosen, text: a sheet}]\n",
+         "servos/mine.yaml:3:26: error: the file states no 'stall_torqe'; did you mean 'stall_torque'?");
+  expect("sources: [{of: [voltage, stall_torque, no_load_speed, voltage], kind: chosen, text: a sheet}]\n",
+         "'voltage' has two sources; expected one");
+  expect("source: a bench\nsources: [{of: [voltage, stall_torque, no_load_speed], kind: chosen, text: a sheet}]\n",
+         "source and sources are both stated; expected one of them");
+  expect("sources: [{of: [voltage, stall_torque, no_load_speed], kind: measured, text: a sheet}]\n", "measured");
+  expect("", "source");
+}
+
+TEST(ServoFiles, AFileThatHidesAShippedOneHasANote) {
+  const Folder folder;
+  std::filesystem::create_directory(folder / "servos");
+  const std::string own =
+      "gaitlab_servo: 1\nname: s3003\nsource: a bench\nactuator: {type: servo, voltage: 5, stall_torque: 1, no_load_speed: "
+      "6}\n";
+  folder.write("servos/s3003.yaml", own);
+  const std::string note =
+      "'s3003' is the file '" + (folder / "servos/s3003.yaml") + "', not the one of that name that comes with gaitlab";
+  const std::string file = folder.write("s.yaml", with("type: servo, model: s3003"));
+  const auto hiding = [&](const Scenario& s) {
+    return std::ranges::count_if(s.notes, [&](const Note& one) { return one.text == note && one.place.line > 0; });
+  };
+  EXPECT_EQ(hiding(read_scenario(file, {}, catalog())), 1);
+  const ScenarioTemplate all(file, {}, catalog());
+  EXPECT_EQ(hiding(all.with({"actuator.u_max=4"})), 1);
+  EXPECT_EQ(hiding(all.with({"actuator.model=sg92r"})), 0);
+  std::string module = with("");
+  module.replace(module.find("actuator: {}\n"), 13, "");
+  module.replace(module.find("    name: rod\n"), 14, "    name: rod\n    actuator: {type: servo, model: s3003}\n");
+  EXPECT_EQ(hiding(read_scenario(folder.write("m.yaml", module), {}, catalog())), 1);
+  folder.write("servos/s3003.yaml", read(shipped_files("servo").at("s3003")));
+  EXPECT_EQ(hiding(read_scenario(file, {}, catalog())), 0) << "the same content hides nothing";
 }
 
 TEST(ServoFiles, ErrorsNameTheNearestServo) {

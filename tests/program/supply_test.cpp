@@ -1,8 +1,13 @@
 // Tests of a supply that motors share: the bus voltage of every tick from the trace, brown-outs, lanes, and runs without
 // limits.
+#include <atomic>
 #include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
 
 #include "report/analysis/collisions.h"
+#include "report/remedy/remedy.h"
+#include "report/remedy/remedy_text.h"
 #include "report/verdict/demand.h"
 #include "report/verdict/verdict.h"
 #include "tests/program/as_alone.h"
@@ -129,6 +134,43 @@ TEST(Supply, IsReadBackFromTheRun) {
   EXPECT_FALSE(contains(again.err, "belongs to another")) << again.err;
 }
 
+/// A rod that starts at 25 rad/s against its command charges the battery: V = V0 - r I.
+TEST(Supply, AChargedBatteryRaisesTheBoundOfAStatedUMaxAlone) {
+  const auto largest = [](const std::string& u_max) {
+    const Scenario s = scenario(
+        rod() + kNoGround + kBusServo + "supply: {voltage: 7.4, resistance: 0.8, regenerates: true}\ninitial: {speeds: 25}\n" +
+            "controller: {type: rc_servo, period: 0.01, gain: 100}\ncpg: {type: keyframes, model: {frames: [{time: 0, angles: "
+            "9}, {time: 1, angles: 9}]}}\nduration: 0.1\ntrace: {period: 0.01, columns: [t, joint.*, supply.*]}\n",
+        u_max.empty() ? std::vector<std::string>{} : std::vector<std::string>{"actuator.u_max=" + u_max});
+    const Recording r = run(s);
+    const Table row(r.trace);
+    double most = 0;
+    for (std::size_t k = 1; k < r.trace.rows(); ++k) {
+      if (row.at(k, "supply.current") < 0) {
+        EXPECT_GT(row.at(k, "supply.voltage"), 7.4);
+      }
+      most = std::max(most, std::abs(row.at(k, "joint.0.voltage")));
+    }
+    EXPECT_LT(row.at(1, "supply.current"), 0);
+    return most;
+  };
+  EXPECT_EQ(largest(""), 7.4);
+  EXPECT_GT(largest("12"), 7.5);
+}
+
+TEST(Supply, HasALineOfItsEnduranceWhereACapacityIsStated) {
+  const Folder folder;
+  folder.write("s.yaml", rods(0.3));
+  const Result run = gaitlab("run s.yaml --out r --no-report", folder.path().string());
+  const auto summary = nlohmann::json::parse(read(folder / "r/summary.json"));
+  const double minutes = summary["supply"]["endurance"];
+  // A battery of 1 A h; the mean current of the window is not far from the RMS, which is larger.
+  EXPECT_GT(minutes, 60 / summary["supply"]["current_rms"].get<double>());
+  EXPECT_TRUE(contains(run.out, fmt::format("  endurance {:.3g} min: 1 A h at a mean current of ", minutes))) << run.out;
+  const Result without = gaitlab("run s.yaml --out w --no-report --set supply.capacity=0", folder.path().string());
+  EXPECT_FALSE(contains(without.out, "endurance")) << without.out;
+}
+
 TEST(Supply, NumbersThatAreNotFiniteAreNoEvidence) {
   const Scenario s = scenario(rods(0.3));
   Recording r = run(s);
@@ -174,6 +216,116 @@ TEST(SupplyLanes, AreRunsAlone) {
     }
   }
   expect_as_alone(lanes, 2);
+}
+
+/// A rod that swings slowly; its supply has the keys `supply` besides voltage and resistance.
+std::string slow_rod(const std::string& supply) {
+  return rod() + "ground: {type: none}\ncontact: {on: none}\nphysics: {engine: articulated}\n" + kBusServo +
+         "supply: {voltage: 7.4, resistance: 0.4, " + supply +
+         "}\ncontroller: {type: pid, period: 0.01, Kp: 30, Kd: 0}\n"
+         "cpg: {type: sine, frequency: 0.5, amplitude: 0.3}\nduration: 8\n";
+}
+
+/// Run of a scenario with its verdict.
+struct JudgedText {
+  explicit JudgedText(const std::string& text, const std::vector<std::string>& sets = {})
+      : scenario(test::scenario(text, sets)),
+        record(run(scenario)),
+        summary(report::summarise(scenario, record, 0)),
+        verdict(report::verdict(scenario, record, summary, report::overlaps(scenario, record))) {}
+  [[nodiscard]] const report::Check& check(const char* id) const {
+    return *std::ranges::find(verdict.checks, id, &report::Check::id);
+  }
+  Scenario scenario;
+  Recording record;
+  report::Summary summary;
+  report::Verdict verdict;
+};
+
+report::Remedy remedy_of(const std::string& text, const JudgedText& own) {
+  std::atomic<bool> stop = false;
+  return report::remedy({own.scenario,
+                         own.verdict,
+                         [&](const std::vector<std::string>& sets) { return scenario(text, sets); },
+                         false,
+                         {"u_max", "supply.voltage", "supply.resistance"},
+                         {},
+                         {}},
+                        stop);
+}
+
+TEST(SupplyRemedy, IsMoreVoltageOrLessResistance) {
+  const std::string text = slow_rod("least: 7");
+  const JudgedText own(text);
+  ASSERT_EQ(own.verdict.word, Word::infeasible) << own.verdict.reason.text;
+  ASSERT_EQ(own.check("brownout").status, report::CheckStatus::fail) << own.verdict.why();
+  const report::Check& sag = own.check("brownout");
+  const report::Remedy made = remedy_of(text, own);
+  ASSERT_EQ(made.lacking.size(), 1U);
+  EXPECT_EQ(made.lacking.front().reason, "0: the voltage of the supply");
+  std::map<std::string, double> helps;
+  for (const report::RemedyAnswer& answer : made.answers) {
+    if (answer.confirmed) helps[answer.sets.front().substr(0, answer.sets.front().find('='))] = answer.factor;
+  }
+  // The drop is r P / V with the same power, so that it is proportional to r / V0. The voltage at the motors changes it by less
+  // than 5 %, and the search ends within 2 % of the change.
+  ASSERT_EQ(helps.size(), 2U);
+  EXPECT_NEAR(helps.at("supply.resistance"), sag.limit / sag.value, 0.04);
+  EXPECT_NEAR(helps.at("supply.voltage"), 1 + (sag.value - sag.limit) / 7.4, 0.003);
+}
+
+TEST(SupplyRemedy, IsABatteryOfMoreCurrent) {
+  const std::string text = slow_rod("current: 0.1");
+  const JudgedText own(text);
+  ASSERT_EQ(own.check("battery").status, report::CheckStatus::fail) << own.check("battery").text;
+  const report::Remedy made = remedy_of(text, own);
+  EXPECT_TRUE(made.ratings_suffice);
+  ASSERT_EQ(made.ratings.size(), 1U);
+  EXPECT_EQ(made.ratings.front().setting, "supply.current");
+  EXPECT_GE(made.ratings.front().rating, own.check("battery").value);
+  EXPECT_EQ(report::remedy_lines(made).front().text,
+            fmt::format("feasible with supply.current >= {:.4g} A (now 0.1 A)", made.ratings.front().rating));
+}
+
+TEST(SupplyDemand, IsThatOfARunWithTwentyTimesTheLimitsAtASupplyThatHolds) {
+  const std::string text = slow_rod("current: 0.1");
+  const auto demand_of = [&](const std::vector<std::string>& sets) {
+    JudgedText own(text, sets);
+    Scenario twin = scenario(text, sets);
+    EXPECT_TRUE(report::raise_limits(twin));
+    report::add_demand(own.verdict, own.scenario, own.summary, report::demand(twin, own.record, own.summary));
+    return own.verdict;
+  };
+  // Commands are volts: motors with 20 times the limits, behind no resistance, draw the same power.
+  const JudgedText free(text, {"supply.resistance=0", "supply.voltage=148", "actuator.u_max=148"});
+  double power = 0;
+  double largest = 0;
+  const Recording& r = free.record;
+  for (std::size_t k = free.summary.judged.first_row + 1; k < r.supply.rows(); ++k)
+    power = std::max(power, 148 * r.supply.at(k, kLargestCurrent));
+  for (const JudgedJoint& joint : free.summary.judged.joints) largest = std::max(largest, joint.voltage_peak);
+  const report::Verdict starved = demand_of({"supply.resistance=2.5"});
+  ASSERT_TRUE(starved.supply_demand) << starved.demand_doubt;
+  EXPECT_NEAR(starved.supply_demand->current_peak, power / 7.4, 1e-9 * power);
+  EXPECT_NEAR(starved.supply_demand->voltage, largest, 1e-9 * largest);
+  EXPECT_NEAR(starved.supply_demand->energy,
+              r.supply.at(r.supply.rows() - 1, kCharge) * 148 - r.supply.at(free.summary.judged.first_row, kCharge) * 148,
+              1e-9 * starved.supply_demand->energy);
+  report::Verdict again = starved;
+  again.supply_demand.reset();
+  ASSERT_TRUE(report::take_demand(again, report::to_json(starved)));
+  EXPECT_EQ(again.supply_demand->energy, starved.supply_demand->energy);
+}
+
+TEST(SupplyDemand, IsPrinted) {
+  const Folder folder;
+  folder.write("s.yaml", slow_rod("current: 0.1"));
+  for (const char* const set : {"supply.resistance=0.1", "supply.resistance=2.5"}) {
+    const std::string text =
+        gaitlab(fmt::format("run s.yaml --demand --out {0} --no-report --set {0}", set), folder.path().string()).out;
+    EXPECT_TRUE(contains(text, " from the supply")) << text;
+    EXPECT_EQ(gaitlab(fmt::format("report {}", set), folder.path().string()).out, text.substr(0, text.find("  files")));
+  }
 }
 
 TEST(Supply, ARunWithoutLimitsKeepsTheVoltageOfADuty) {

@@ -26,7 +26,7 @@ from changes import generate  # noqa: E402
 ROOT = HERE.parents[1]
 OUT = ROOT / "build/mutants"
 # Sources that create scenarios or print their limits, and sources that use the constants of HEADERS.
-WITH_DEFAULTS = ["core/scenario/read_scenario.cpp"]
+WITH_DEFAULTS = ["core/scenario/scenario_reader.cpp"]
 # Tests of tables and of changed recordings run first. Surviving mutants are then tested by tests that simulate.
 QUICK = ["report/verdict/checks/check_table", "report/verdict/checks/check_cases", "report/verdict/checks/motion_cases", "report/verdict/check_evidence",
          "report/verdict/checks/load_checks", "report/verdict/checks/body_checks", "report/verdict/checks/verdict_motor", "report/verdict/decision",

@@ -34,9 +34,10 @@ struct FoundColumn {
 std::vector<FoundColumn> columns_of(const PaperRun& run) {
   const std::vector<std::string> joints = joint_names(*run.scenario.robot);
   std::vector<FoundColumn> all;
-  for (const Trace* table : {&run.recording.trace, &run.recording.rest}) {
-    for (const Column& column : table->columns) {
-      if (column.name == "t") continue;
+  const ColumnList& chosen = run.recording.trace.columns;
+  for (const ColumnList* columns : {&chosen, &run.recording.rest.columns}) {
+    for (const Column& column : *columns) {
+      if (column.name == "t" || (columns != &chosen && chosen.find(column.name) < chosen.size())) continue;
       FoundColumn found{column.name, column.name, column.name, "", column.unit};
       const std::size_t dot = column.name.rfind('.');
       if (column.name.starts_with("joint.") && dot > 6) {
@@ -47,7 +48,7 @@ std::vector<FoundColumn> columns_of(const PaperRun& run) {
         std::ranges::replace(found.quantity, '_', ' ');
         if (found.quantity == "setpoint") found.quantity = "set point";
       }
-      if (std::ranges::find(all, found.name, &FoundColumn::name) == all.end()) all.push_back(std::move(found));
+      all.push_back(std::move(found));
     }
   }
   return all;

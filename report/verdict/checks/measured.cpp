@@ -57,6 +57,8 @@ void judge(const CheckedRun& run, Check& made) {
       made.limit = kMostLimit;
       name_joint(made, run, off_limit->joint);
     }
+    made.margin = std::numeric_limits<double>::infinity();
+    for (const Criterion& one : made.criteria) made.margin = std::min(made.margin, one.margin());
     if (!(apart <= kMostLimit)) made.status = CheckStatus::warn;
     if (made.status == CheckStatus::not_judged) made.status = CheckStatus::pass;
   }
@@ -71,8 +73,7 @@ std::vector<CheckKind> checks::measured() {
   const auto concerns = [](const Scenario& scenario) { return scenario.measured.any(); };
   return {{"measured", CheckGroup::trust, "", "Moves as the log",
            "mean error of a joint's angle, as a share of the range of the log's angles; and the difference of the shares of "
-           "the time "
-           "at the limit of the supply",
+           "the time at the limit of the supply",
            "", "above 20 % of the range, or if the shares of the time differ by more than 10 %", CheckSpan::whole_run,
            "measured", "another friction, rotor inertia or latency; the data of the motor; mass and length of what it moves",
            judge, false, false, false, Lost::never, concerns}};

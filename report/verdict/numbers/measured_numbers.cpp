@@ -22,9 +22,9 @@ struct ErrorMeasure {
   double LogError::*number;
   const char* definition;
 };
-constexpr ErrorMeasure kMeasures[] = {{"mae", &LogError::mae, "Mean of |simulated - measured|"},
+constexpr ErrorMeasure kMeasures[] = {{"mae", &LogError::mae, "Mean magnitude of simulated - measured"},
                                       {"rms", &LogError::rms, "RMS of simulated - measured"},
-                                      {"peak", &LogError::peak, "Largest |simulated - measured|"}};
+                                      {"peak", &LogError::peak, "Largest magnitude of simulated - measured"}};
 
 struct LimitShare {
   const char* key;

@@ -3,6 +3,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "core/scenario/buses.h"
 #include "report/analysis/bus.h"
 #include "report/verdict/numbers/number_texts.h"
 #include "report/verdict/numbers/numbers.h"
@@ -54,12 +55,21 @@ Json torque_errors(R run) {
   return each;
 }
 
-/// Number computed by `of` from the bus in the judged window, or null without a supply.
+/// The largest of the numbers computed by `of` from each bus in the judged window, or null without a supply.
 template <class Of>
-Json of_bus(R run, Of of) {
-  const std::optional<BusUse> bus = bus_use(run.record, run.summary.judged.first_row);
-  return bus ? Json(of(*bus)) : Json();
+Json of_buses(R run, Of of) {
+  Json most;
+  const std::vector<MotorBus> all = buses(run.scenario);
+  for (std::size_t number = 0; number < run.record.buses(); ++number) {
+    const std::optional<BusUse> use = bus_use(run.record, number, run.summary.judged.first_row);
+    if (!use) return {};
+    const double value = of(*use, number < all.size() ? all[number].supply : Supply());
+    if (most.is_null() || value > most.get<double>()) most = value;
+  }
+  return most;
 }
+
+Json least(const Json& negative) { return negative.is_null() ? Json() : Json(-negative.get<double>()); }
 
 constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 
@@ -239,27 +249,24 @@ std::vector<SummaryNumber> run_numbers() {
        .value = [](R r) { return of_motors(r, [&](const Judged&) { return or_null(r.record.current_rms); }); }},
       {.key = "supply.voltage_least",
        .unit = "V",
-       .definition = "Least voltage of the bus in the window, at control ticks; this number and the next two are null without "
-                     "a supply.",
-       .value = [](R r) { return of_bus(r, [](const BusUse& bus) { return bus.voltage_least; }); }},
+       .definition =
+           "Least voltage of a bus in the window, at control ticks; this number and the next two are those of the worst "
+           "battery, and null without a supply.",
+       .value = [](R r) { return least(of_buses(r, [](const BusUse& bus, const Supply&) { return -bus.voltage_least; })); }},
       {.key = "supply.current_rms",
        .unit = "A",
        .definition = "RMS current of the supply in the window, at control ticks.",
-       .value = [](R r) { return of_bus(r, [](const BusUse& bus) { return bus.current_rms; }); }},
+       .value = [](R r) { return of_buses(r, [](const BusUse& bus, const Supply&) { return bus.current_rms; }); }},
       {.key = "supply.current_peak",
        .unit = "A",
        .definition = "Largest current of the supply in the window, at control ticks.",
-       .value = [](R r) { return of_bus(r, [](const BusUse& bus) { return bus.current_peak; }); }},
-      {.key = "endurance",
+       .value = [](R r) { return of_buses(r, [](const BusUse& bus, const Supply&) { return bus.current_peak; }); }},
+      {.key = "supply.endurance",
        .unit = "min",
-       .definition = "Time until the mean current of the window has drawn supply.capacity; null if the capacity is not stated.",
-       .value =
-           [](R r) {
-             const double capacity = r.scenario.supply.capacity;
-             const Json mean = of_bus(r, [](const BusUse& bus) { return bus.current; });
-             if (!(capacity > 0) || mean.is_null() || !(mean.get<double>() > 0)) return Json();
-             return Json(60 * capacity / mean.get<double>());
-           }},
+       .definition =
+           "Time until the mean current of the window has drawn the capacity of a supply or battery, the first of all; null "
+           "if no capacity is stated.",
+       .value = [](R r) { return or_null(endurance(r.scenario, r.record, r.summary.judged.first_row).minutes); }},
       {.key = "wall_time",
        .unit = "s",
        .definition = "Real time of the simulation.",

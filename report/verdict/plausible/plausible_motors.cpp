@@ -10,6 +10,7 @@
 #include "core/model/outline.h"
 #include "core/robot_files/type_presets.h"
 #include "core/scenario/built_robot.h"
+#include "core/scenario/sensor_section.h"
 #include "core/settings/settings_numbers.h"
 #include "core/settings/wording.h"
 #include "report/analysis/envelope.h"
@@ -281,12 +282,24 @@ std::vector<Finding> rotors(const Subject& subject) {
 }
 
 std::vector<Finding> gains(const Subject& subject) {
-  return each_setting(
-      subject.scenario, subject.scenario.controller, "controller", "Kp",
-      [](const std::string& name, double value, std::size_t) {
-        return fmt::format("Kp of {} is {}, so that the motor turns away from its set point", name, number_text(value));
-      },
-      [](double value, std::size_t) { return value; });
+  const Scenario& s = subject.scenario;
+  if (s.controller.entry == nullptr) return {};
+  const std::vector<PositionGains> all = make_controller(s.controller, plugin_info(s))->gains();
+  std::vector<Finding> found;
+  for (std::size_t j = 0; j < all.size(); ++j) {
+    if (!s.robot->joints[j].driven()) continue;
+    const std::string& name = s.robot->joints[j].name;
+    const double value = all[j].P / all[j].per_key;
+    found.push_back(
+        {motor_place(s, j, all[j].key, "controller"),
+         {name},
+         fmt::format("{} of {} is {}, so that the motor turns away from its set point", all[j].key, name, number_text(value)),
+         value,
+         {},
+         {},
+         {{value, nullptr}}});
+  }
+  return found;
 }
 
 }  // namespace

@@ -78,6 +78,16 @@ TEST(PackedChunks, AreSmallWhereTheyCanBeAndBarelyLargerWhereNot) {
   EXPECT_LE(chunks[2].packed, kRows * sizeof(double) + 2 + 4 + 2UL * 5);
 }
 
+TEST(PackedChunks, MayHaveNoiseOfSeveralStoredBlocks) {
+  constexpr std::size_t kRows = 20000;  // seven bytes of noise of each value are more than a stored block can hold
+  const Trace whole = table(kRows, 1);
+  const std::vector<Chunk> chunks = unpacked(whole, kRows);
+  ASSERT_EQ(chunks.size(), 3U);
+  for (std::size_t k = 0; k < kRows; ++k) ASSERT_EQ(chunks[2].values[k], whole.at(k, 2));
+  // The highest bytes have seven bits of noise. 5 % of them for the deflated block.
+  EXPECT_LE(chunks[2].packed, kRows * 7 + kRows * 7 / 8 + kRows / 20);
+}
+
 // Chunks as a writer gives them, to be unpacked again.
 struct Packed {
   std::vector<std::vector<std::byte>> chunks;

@@ -149,7 +149,8 @@ TEST_F(ChangesTest, WrongSettings) {
     EXPECT_EQ(text.substr(0, text.find('\n')), std::string("DIR/s.yaml:6:") + one.column_and_text) << one.at;
   }
   EXPECT_EQ(error(with("[{t: 0.2, set: {cpg.size: 32}}]", "cpg: {type: growing}")),
-            "DIR/s.yaml:6:20: error: set changes the CPG's 16 states to 32; expected settings that keep the number of states");
+            "DIR/s.yaml:6:20: error: set changes the CPG's 16 states to 32 (size: Number of states); expected settings that "
+            "keep the number of states");
 }
 
 TEST_F(ChangesTest, WrongFaults) {

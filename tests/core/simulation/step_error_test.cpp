@@ -12,13 +12,13 @@ namespace {
 
 using Numbers = std::vector<double>;
 
-/// Estimate of the torque error with its buffers.
-struct Estimate {
+/// SomeEstimate of the torque error with its buffers.
+struct SomeEstimate {
   StateLayout layout;
   Numbers numbers;
   StepError error;
 
-  Estimate(StateLayout of, Numbers accuracy) : layout(of), numbers(StepError::size(of)), error(of, std::move(accuracy)) {
+  SomeEstimate(StateLayout of, Numbers accuracy) : layout(of), numbers(StepError::size(of)), error(of, std::move(accuracy)) {
     error.bind(numbers);
   }
   void see(const Numbers& torque, double slope = 1) { error.see(torque, Numbers(torque.size(), slope)); }
@@ -35,7 +35,7 @@ struct Estimate {
 };
 
 TEST(StepError, IsAWeightedRmsTimesTheFactor) {
-  Estimate one({2, 1}, {0.5});
+  SomeEstimate one({2, 1}, {0.5});
   one.see({3, -4});
   one.compare(Companion::twin, {1, -4}, 0.1, 2, 1);  // the differences are 4 and 0
   one.see({1, 0});
@@ -49,7 +49,7 @@ TEST(StepError, IsAWeightedRmsTimesTheFactor) {
 }
 
 TEST(StepError, NeedsASlopeOrADifference) {
-  Estimate lanes({1, 3}, {0.1, 0.1, 0.1});
+  SomeEstimate lanes({1, 3}, {0.1, 0.1, 0.1});
   lanes.error.see(Numbers{1, 1, 1}, Numbers{0, -1, 0});
   lanes.compare(Companion::coarse, {2, 1, 1}, 0.1);  // the coarse companion alone is not sufficient
   lanes.compare(Companion::twin, {1, 1, 2}, 0.1);
@@ -61,7 +61,7 @@ TEST(StepError, NeedsASlopeOrADifference) {
 }
 
 TEST(StepError, AnEventIsBeyondThePeakOfTheWholeRun) {
-  Estimate one({1, 1}, {0.1});
+  SomeEstimate one({1, 1}, {0.1});
   EXPECT_FALSE(one.tally().estimated);
   one.see({1});
   one.compare(Companion::twin, {1.25}, 1);
@@ -75,7 +75,7 @@ TEST(StepError, AnEventIsBeyondThePeakOfTheWholeRun) {
 }
 
 TEST(StepError, ASmallPeakCountsAsAShareOfTheLargest) {
-  Estimate one({2, 1}, {0.1});
+  SomeEstimate one({2, 1}, {0.1});
   one.see({100, 0.01});
   one.compare(Companion::twin, {100, 0.135}, 1);  // the difference 0.125 is below a tenth of 2 N m
   EXPECT_LT(one.tally().event.time, 0);
@@ -83,7 +83,7 @@ TEST(StepError, ASmallPeakCountsAsAShareOfTheLargest) {
 }
 
 TEST(StepError, TheCompanionThatPartsFirstCounts) {
-  Estimate one({2, 1}, {0.1});
+  SomeEstimate one({2, 1}, {0.1});
   one.see({1, 1});
   one.compare(Companion::coarse, {1, 2}, 1);
   one.compare(Companion::twin, {3, 1}, 2);
@@ -91,7 +91,7 @@ TEST(StepError, TheCompanionThatPartsFirstCounts) {
   EXPECT_EQ(one.tally().torque_error, (Numbers{2, 1}));
   EXPECT_LT(one.tally().chaotic.time, 0);
 
-  Estimate tie({2, 1}, {0.1});
+  SomeEstimate tie({2, 1}, {0.1});
   tie.see({1, 1});
   tie.compare(Companion::coarse, {1, 2}, 1);
   tie.compare(Companion::twin, {2, 1}, 1);

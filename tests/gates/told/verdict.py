@@ -3,7 +3,7 @@ import math
 
 import numpy as np
 
-from told import battery, bodies, motors, trust
+from told import battery, bodies, docks, motors, trust
 from told.check import Told, graded, margin
 from told.sentences import LACKS, NO_MOTORS, RESTS_ON, TORN, read, same
 from told.shapes import Collisions, depths
@@ -101,8 +101,8 @@ class Judged:
             "brownout": battery.brownout(r), "battery": battery.battery(r, w),
             "tracking": motors.tracking(r, w), "stops": motors.stops(r, w), "setpoints": motors.setpoints(r, w),
             "start": motors.start(r, w), "collision": collision(r) if whole else None,
-            "dock_tension": bodies.dock(r, "tension"), "dock_shear": bodies.dock(r, "shear"),
-            "dock_bending": bodies.dock(r, "bending"), "dock_torsion": bodies.dock(r, "torsion"),
+            "dock_tension": docks.dock(r, "tension"), "dock_shear": docks.dock(r, "shear"),
+            "dock_bending": docks.dock(r, "bending"), "dock_torsion": docks.dock(r, "torsion"),
             "in_ground": in_ground(r), "slip": bodies.slip(r, w), "airborne": bodies.airborne(r, w),
             "stability": bodies.stability(r, w), "field": bodies.field(r, w), "periodic": trust.periodic(r, w, e),
             "evidence": Told(), "torque_error": trust.torque_error(r),

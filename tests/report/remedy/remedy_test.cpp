@@ -67,7 +67,7 @@ TEST(RemedySettings, ASupplyOfZeroIsTheVoltageOfTheServo) {
   const RemedySettings settings(
       "actuator: {voltage: 6, stall_torque: 1, no_load_speed: 5, stall_current: 2, u_max: 0, i_max: 0}\n");
   EXPECT_EQ(settings.value(remedy_key("u_max")), 6);
-  EXPECT_EQ(settings.missing(remedy_key("i_max")), "0: the stall current at u_max");
+  EXPECT_EQ(settings.missing(remedy_key("i_max")), "0: the stall current at `voltage`");
   EXPECT_EQ(settings.scaled(remedy_key("no_load_speed"), 2), (Sets{"actuator.no_load_speed=10", "actuator.stall_current=4"}))
       << "a motor of this torque that is twice as fast draws twice the current";
 }
@@ -80,6 +80,22 @@ TEST(RemedySettings, AKeyThatChangesDuringTheRunIsLeftOut) {
   EXPECT_EQ(settings.missing(remedy_key("amplitude")), "set by `at`");
   EXPECT_EQ(settings.missing(remedy_key("Kp")), "set by `at`");
   EXPECT_EQ(settings.missing(remedy_key("frequency")), "");
+}
+
+/// The position gain has the key that the controller declares.
+TEST(RemedySettings, TheGainIsThatOfTheController) {
+  const auto doubled = [](const std::string& controller) {
+    const Scenario s = scenario("gaitlab: 1\nrobot: {modules: mtran, docks: [[1, 1, 4, 0, 0]]}\nduration: 1\ncontroller: {" +
+                                controller + "}\n");
+    const RemedySettings settings = report::settings_of(s);
+    EXPECT_EQ(settings.missing(remedy_key("Kp")), "") << controller;
+    return settings.scaled(remedy_key("Kp"), 2);
+  };
+  EXPECT_EQ(doubled("type: pid, Kp: 60"), Sets{"controller.Kp=120"});
+  EXPECT_EQ(doubled("type: rc_servo, gain: 3"), Sets{"controller.gain=6"});
+  EXPECT_EQ(doubled("type: rc_servo, P: 400"), Sets{"controller.P=800"});
+  EXPECT_EQ(doubled("type: rc_servo"), Sets{"controller.gain=10"}) << "the gain that is not stated";
+  EXPECT_EQ(doubled("type: rc_servo, P: {default: 30, m1/active: 40}"), Sets{"controller.P=[60, 60, 80, 60]"});
 }
 
 TEST(RemedySettings, FrictionIsThatOfBoxesToo) {

@@ -84,5 +84,29 @@ TEST(RemedyText, NamesSettingsThatDoNotHelp) {
                                           "larger u_max and i_max together"}));
 }
 
+TEST(RemedyText, TheFastestGaitComesFirst) {
+  RemedyAnswer slow = confirmed("i_max", 1.5, 5), still = confirmed("frequency", 0.5, 0.2), fast = confirmed("u_max", 1.5, 5);
+  slow.run.speed = 0.1;
+  still.run.speed = 0.01;
+  still.run.still = true;
+  fast.run.speed = 0.3;
+  Remedy made = remedy_with(Word::infeasible, {still, slow, fast});
+  EXPECT_EQ(lines_of(made), (Lines{"feasible with u_max >= 11.1 V (now 7.4 V); speed 0.3000 m/s",
+                                   "or with i_max >= 1.8 A (now 1.2 A); speed 0.1000 m/s",
+                                   "or with frequency <= 0.6 Hz (now 1.2 Hz); speed 0.0100 m/s, hardly moves"}));
+}
+
+TEST(RemedyText, NamesWhatDoesNotConfirmAnAnswer) {
+  RemedyAnswer answer = confirmed("i_max", 1.5, 5);
+  answer.confirmed = false;
+  const auto line = [&] { return lines_of(remedy_with(Word::infeasible, {answer})).at(0); };
+  EXPECT_TRUE(line().ends_with(": i_max >= 1.8 A (now 1.2 A): next to no change")) << line();
+  answer.run.simulated = true;
+  answer.run.weakest = "current of m1/active; worst at 2 s";
+  EXPECT_TRUE(line().ends_with(": i_max >= 1.8 A (now 1.2 A): current of m1/active")) << line();
+  answer.less_suffices = true;
+  EXPECT_TRUE(line().ends_with(": i_max >= 1.8 A (now 1.2 A): a smaller change also makes it feasible")) << line();
+}
+
 }  // namespace
 }  // namespace gaitlab::test

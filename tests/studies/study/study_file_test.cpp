@@ -204,6 +204,18 @@ TEST_F(StudyFile, ASearchIsChecked) {
             "s.yaml:1:1: error: method cma has nothing to search: no parameter has `low` and `high`");
 }
 
+/// docs/studies.md: scbo up to 10 parameters and a budget up to 2000 points, else cma_gp; nsga2 for several objectives.
+TEST_F(StudyFile, TheUsualSearchDependsOnPointsAndParameters) {
+  const auto method = [&](const std::string& lines) {
+    const std::string head = "gaitlab_study: 1\nscenario: two.yaml\nparameters: {cpg.frequency: {low: 0.5, high: 1}}\n";
+    return studies::read_study(folder_.write("s.yaml", head + lines), studies::Purpose::optimize).method;
+  };
+  EXPECT_EQ(method("budget: {runs: 2000}\n"), studies::Method::scbo);
+  EXPECT_EQ(method("budget: {runs: 2001}\n"), studies::Method::cma_gp);
+  EXPECT_EQ(method("budget: {runs: 6000}\nreplicates: {count: 3}\n"), studies::Method::scbo) << "points, not runs";
+  EXPECT_EQ(method("budget: {runs: 64}\nobjective: [{maximize: speed}, {minimize: torque.peak}]\n"), studies::Method::nsga2);
+}
+
 TEST_F(StudyFile, StartPointsAreChecked) {
   const std::string head = "budget: {runs: 64}\n";
   EXPECT_EQ(search(head + "start: []\n"), kNoError);
@@ -218,6 +230,9 @@ TEST_F(StudyFile, StartPointsAreChecked) {
             "s.yaml:5:10: error: unknown parameter 'cpg.frequncy'; did you mean 'cpg.frequency'?");
   EXPECT_EQ(search(head + "start: [{cpg.frequency: 99}]\n").substr(0, 57),
             "s.yaml:5:25: error: cpg.frequency is 99; expected 0.5 to ");
+  EXPECT_EQ(parameters("cpg.frequency: {values: [0.5, 1]}, cpg.phase_lag: {low: 0, high: 1}",
+                       "method: {type: cma}\nbudget: {runs: 64}\nstart: [{cpg.frequency: 0.7}]\n"),
+            "s.yaml:6:25: error: cpg.frequency is 0.7; expected one of its values: 0.5, 1");
   EXPECT_EQ(search(head + "method: {type: random}\nstart: [{cpg.frequency: 1}]\n"),
             "s.yaml:6:9: error: start is for searches such as scbo; method random does not search");
 }

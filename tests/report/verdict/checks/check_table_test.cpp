@@ -170,7 +170,7 @@ std::vector<Expected> table() {
        0.01, 0.01},
       {"coarse", [](double v) { return [v](Case& made) { made.record.tally.coarse = v * made.record.simulated; }; }, 0.1, 0.1},
       {"law", [](double v) { return [v](Case& made) { made.record.tally.off = v; }; }, 0, 0},
-      {"measured", [](double v) { return off_log(v, 0.1); }, 0.2, 0.2},
+      {"measured", [](double v) { return off_log(v, 0); }, 0.2, 0.2},
   };
   for (const auto& [id, column] : {std::pair{"voltage", kVoltageLimited}, {"current", kCurrentLimited}}) {
     for (Expected& row : of_saturation(id, column)) rows.push_back(std::move(row));
