@@ -136,7 +136,7 @@ test("the search: users' pages first, with excerpts", async () => {
 
 // Words that a user types, and a page that must be among the first three; pages of developers are not. (The gate has no gallery.)
 const asked = {
-  torque: "docs/reference/plugins.html", servo: "docs/modules.html", friction: "docs/reference/scenario.html", infeasible: "docs/errors.html", "current limit": "docs/glossary.html",
+  torque: "docs/reference/plugins.html", servo: "docs/tutorials/motors.html", friction: "docs/reference/scenario.html", infeasible: "docs/errors.html", "current limit": "docs/glossary.html",
   slope: "docs/glossary.html", python: "docs/python.html", install: "docs/overview.html", MuJoCo: "docs/mujoco.html", voltage: "docs/reference/plugins.html",
   gear: "docs/reference/plugins.html", wheel: "docs/modules.html", heat: "docs/reference/verdict.html", slip: "docs/reference/scenario.html", approve: "docs/commands.html",
   tolerance: "docs/real-robot.html", sweep: "docs/studies.html", ramp: "docs/reference/plugins.html", keyframes: "docs/reference/plugins.html"
