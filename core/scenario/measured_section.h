@@ -29,7 +29,7 @@ std::span<const LoggedKind, kLoggedKinds> logged_kinds();
 
 /// Columns of a log for one joint. Value of a quantity = number in the column / scale.
 struct LoggedJoint {
-  std::string name;                               ///< of the joint
+  std::string name;                               ///< name of the joint
   std::array<std::string, kLoggedKinds> columns;  ///< "" for a quantity that was not measured
   std::array<double, kLoggedKinds> scales{1, 1, 1, 1, 1, 1};
   bool brief = false;  ///< true to visit only the keys that are stated; for writing

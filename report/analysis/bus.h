@@ -26,7 +26,7 @@ std::optional<BusUse> bus_use(const Recording& record, std::size_t bus, std::siz
 struct Endurance {
   double minutes = NAN;              ///< NaN if no capacity is stated, or no current flows
   double capacity = 0, current = 0;  ///< A h; A, mean
-  std::string module = {};           ///< of the battery; "" for the scenario's supply
+  std::string module = {};           ///< module of the battery; "" for the scenario's supply
 };
 /// `first`: as of bus_use().
 Endurance endurance(const Scenario& scenario, const Recording& record, std::size_t first);
