@@ -14,7 +14,7 @@ struct RobotState {
   Vec3 velocity = Vec3::Zero();          ///< velocity of the origin of the base frame, m/s
   Vec3 angular_velocity = Vec3::Zero();  ///< rad/s
   std::vector<double> q, qd;             ///< joint angles, rad, and speeds, rad/s
-  /// Of the motors of joints with play (joints_with_play), geared: angles at the joint, rad, and speeds, rad/s.
+  /// Angles, rad, and speeds, rad/s, of the motors of joints with play (joints_with_play), at the joint.
   std::vector<double> rotor = {}, rotor_speed = {};
 };
 

@@ -175,7 +175,7 @@ struct Scenario {
   Ground ground;
   ContactSettings contact;
   PluginSelection actuator, controller, cpg;
-  Supply supply;                   ///< of all motors without a battery (docs/equations.md, 3); voltage 0 without one
+  Supply supply;  ///< battery of all motors that have none of their own (docs/equations.md, 3); voltage 0 without one
   std::vector<Battery> batteries;  ///< by module, of its motors; voltage 0 without one; empty if no module has one
   MeasuredSettings measured;       ///< log of the real robot
   std::vector<double> duty_volts;  ///< voltage of duty 1 by joint, if it is not that of the supply or the motors; not a setting

@@ -53,7 +53,7 @@ class LaneSupply {
   std::size_t lane_ = 0, lanes_ = 1;
   bool duty_ = false;
   bool unlimited_ = false;                 ///< true in a run without motor limits: no supply bounds a command
-  std::vector<double> volts_;              ///< of duty 1 by joint without a supply
+  std::vector<double> volts_;              ///< voltage of duty 1, by joint, without a supply
   std::vector<std::vector<double>> most_;  ///< largest duty by segment and joint
   /// Motors of driven joints that share a supply, or, in the last entry, have none.
   struct Bus {
