@@ -37,8 +37,14 @@ namespace {
 std::vector<std::pair<std::string, std::size_t>> joints_of(const CsvTable& table, const std::string& time,
                                                            const RobotInfo& robot, const Table::Model& model) {
   std::vector<std::pair<std::string, std::size_t>> columns;
+  const auto taken = [&](std::size_t joint) {
+    return std::any_of(columns.begin(), columns.end(), [&](const auto& column) { return column.second == joint; });
+  };
   for (const Table::Column& one : model.columns) {
-    if (one.joint >= 0) columns.emplace_back(one.column, static_cast<std::size_t>(one.joint));
+    if (one.joint < 0) continue;  // an unknown joint, which the reader has reported
+    const auto joint = static_cast<std::size_t>(one.joint);
+    if (taken(joint)) throw std::invalid_argument("joint '" + std::string(robot.joints[joint].name) + "' has a column already");
+    columns.emplace_back(one.column, joint);
   }
   if (!model.columns.empty()) return columns;
   for (const std::string& name : table.names()) {
@@ -46,9 +52,7 @@ std::vector<std::pair<std::string, std::size_t>> joints_of(const CsvTable& table
     std::size_t j = 0;
     while (j < robot.joints.size() && name != robot.joints[j].name && name != std::to_string(j)) ++j;
     if (j == robot.joints.size()) table.fail(name, "no joint '" + name.substr(0, 40) + "'");
-    const auto same = [&](const auto& column) { return column.second == j; };
-    if (std::any_of(columns.begin(), columns.end(), same))
-      table.fail(name, "joint '" + std::string(robot.joints[j].name) + "' has a column already");
+    if (taken(j)) table.fail(name, "joint '" + std::string(robot.joints[j].name) + "' has a column already");
     columns.emplace_back(name, j);
   }
   return columns;

@@ -59,6 +59,16 @@ TEST_F(TableGait, TheResolvedScenarioHoldsTheText) {
   EXPECT_EQ(setpoints(again), setpoints(read_with("{file: gait.csv}")));
 }
 
+TEST_F(TableGait, ALogHasItsOwnClockAndColumns) {
+  folder.write("gait.csv", kCsv);
+  folder.write("log.csv", "clock,pwm,goal\n7.25,1,0.1\n7.55,2,0.5\n8.25,3,0.1\n");
+  const std::vector<double> log =
+      setpoints(read_with("{file: log.csv, time: clock, columns: [{joint: m0/passive, column: goal}]}"));
+  const std::vector<double> gait = setpoints(read_with("{file: gait.csv}"));
+  ASSERT_EQ(log.size(), gait.size());
+  for (std::size_t i = 0; i < log.size(); ++i) EXPECT_NEAR(log[i], gait[i], 1e-13);  // rounding of times from 7.25 s on
+}
+
 TEST_F(TableGait, ErrorsNameLineAndColumn) {
   const std::string at = "the table's line ";
   EXPECT_NE(error("x,0\n0,0\n1,0\n").find(at + "1, column 1: expected the column time; found 'x'"), std::string::npos);
@@ -69,6 +79,10 @@ TEST_F(TableGait, ErrorsNameLineAndColumn) {
   EXPECT_NE(error("time,0\n0,0\n0,0\n").find(at + "3, column 1: times must rise"), std::string::npos);
   EXPECT_NE(error("").find("table is empty"), std::string::npos);
   EXPECT_NE(error("time,0\n0,0\n1,1\n").find("the last frame differs from the first at joint m0/active"), std::string::npos);
+  EXPECT_NE(message_of([&] {
+              read_with("{file: gait.csv, columns: [{joint: m0/active, column: '0'}, {joint: 0, column: '0'}]}");
+            }).find("joint 'm0/active' has a column already"),
+            std::string::npos);
   EXPECT_THROW(read_with("{file: none.csv}"), InputError);
   EXPECT_THROW(read_with("{file: [1]}"), InputError);
 }
