@@ -46,8 +46,7 @@ double of_joint(R run, std::size_t joint, const std::function<std::optional<doub
 }  // namespace
 
 std::vector<SummaryNumber> measured_numbers() {
-  static std::deque<std::string> texts;  // keys and definitions, which the list points to
-  texts.clear();
+  static std::deque<std::string> texts;  // keys and definitions, to which every list points
   const auto text = [](std::string one) { return texts.emplace_back(std::move(one)).c_str(); };
   std::vector<SummaryNumber> all;
   const auto add = [&](const std::string& key, const char* unit, const std::string& definition, auto value, auto of) {
