@@ -97,7 +97,10 @@ std::string gait(const RunData& run) {
 std::string endurance_text(const RunData& run) {
   const Endurance least = endurance(run.scenario, run.record, run.summary.judged.first_row);
   if (!std::isfinite(least.minutes)) return "";
-  return fmt::format("{:.3g} min: {:.4g} A h at a mean current of {:.3g} A{}", least.minutes, least.capacity, least.current,
+  constexpr double kMany = 1000;  // from which on three digits would be a power of ten
+  const std::string minutes =
+      least.minutes < kMany ? fmt::format("{:.3g}", least.minutes) : fmt::format("{:.0f}", least.minutes);
+  return fmt::format("{} min: {:.4g} A h at a mean current of {:.3g} A{}", minutes, least.capacity, least.current,
                      least.module.empty() ? "" : ", battery of " + least.module);
 }
 
