@@ -83,6 +83,14 @@ std::vector<double> CsvTable::column(std::string_view name) const {
   return numbers;
 }
 
+std::vector<std::string> CsvTable::texts(std::string_view name) const {
+  const std::size_t at = find(name);
+  if (at == names_.size()) throw std::invalid_argument("there is no column " + in_marks(std::string(name)));
+  std::vector<std::string> texts;
+  for (const Row& row : rows_) texts.push_back(row.cells[at].text);
+  return texts;
+}
+
 void CsvTable::fail(std::size_t row, std::string_view name, const std::string& what) const {
   fail_at(rows_[row].line, rows_[row].cells[find(name)].at, what);
 }

@@ -21,6 +21,9 @@ class CsvTable {
   [[nodiscard]] bool has(std::string_view name) const { return find(name) < names_.size(); }
   /// Numbers of a column. Throws std::invalid_argument at the first cell that is not a finite number, and for an unknown name.
   [[nodiscard]] std::vector<double> column(std::string_view name) const;
+  /// Texts of a column. Throws std::invalid_argument for an unknown name.
+  [[nodiscard]] std::vector<std::string> texts(std::string_view name) const;
+  [[nodiscard]] int line(std::size_t row) const { return static_cast<int>(rows_[row].line); }  ///< line of a row, from 1
   /// Throws std::invalid_argument at the cell of a row in the column `name`, or at the name itself.
   [[noreturn]] void fail(std::size_t row, std::string_view name, const std::string& what) const;
   [[noreturn]] void fail(std::string_view name, const std::string& what) const;

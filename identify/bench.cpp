@@ -1,0 +1,291 @@
+#include "identify/bench.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "core/files/atomic_file.h"
+#include "core/files/csv_table.h"
+#include "core/files/hash.h"
+#include "core/math/random.h"
+#include "core/model/pattern.h"
+#include "core/laws/dc_motor.h"
+#include "core/scenario/built_robot.h"
+#include "core/math/philox.h"
+#include "core/settings/settings_numbers.h"
+#include "core/settings/wording.h"
+
+namespace gaitlab::identify {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A log as the user names it: its file, its group, and the settings of its row in a table.
+struct Entry {
+  std::string file, group;
+  std::vector<std::string> sets;
+  SourceLocation place;
+};
+
+/// Text of a scalar in YAML, whatever its characters.
+std::string quoted(const std::string& text) { return nlohmann::json(text).dump(); }
+
+std::string absolute(const fs::path& path) { return fs::absolute(path).lexically_normal().string(); }
+
+/// Paths of all scalars of a tree that have a text, such as `cpg.model.file`.
+void find_text(const Node& node, const std::string& text, const std::string& path, std::vector<std::string>& found) {
+  if (node.kind == Node::Kind::scalar && node.text == text) found.push_back(path);
+  for (std::size_t i = 0; i < node.keys.size(); ++i)
+    find_text(node.items[i], text, path.empty() ? node.keys[i].first : path + "." + node.keys[i].first, found);
+}
+
+/// The logs of a table, or nothing if the file is a log.
+std::vector<Entry> entries_of(const std::string& file) {
+  const std::string text = read_file(file, kMostScenario);
+  std::vector<Entry> entries;
+  try {
+    const CsvTable table(text);
+    if (table.names()[0] != "file") return {Entry{file, "", {}, {file}}};
+    const std::vector<std::string> files = table.texts("file");
+    for (std::size_t row = 0; row < files.size(); ++row) {
+      Entry entry{(fs::path(file).parent_path() / files[row]).string(), "", {}, {file, table.line(row), 1}};
+      for (const std::string& key : table.names()) {
+        const std::string value = table.texts(key)[row];
+        if (key == "group") {
+          entry.group = value;
+        } else if (key != "file" && !value.empty()) {
+          entry.sets.push_back(key + "=" + value);
+        }
+      }
+      entries.push_back(std::move(entry));
+    }
+  } catch (const std::invalid_argument& error) {
+    throw InputError(SourceLocation{file}, error.what());
+  }
+  return entries;
+}
+
+/// Keys of the bench that name the file of its section `measured`.
+std::vector<std::string> keys_of_log(const Node& bench) {
+  const Node* const measured = bench.find(kMeasuredSection);
+  const Node* const file = measured == nullptr ? nullptr : measured->find("file");
+  if (file == nullptr) {
+    throw InputError(measured == nullptr ? bench.place : measured->place,
+                     "the bench has no measured.file; expected a section measured with the file of a log and its columns, such as "
+                     "measured: {file: log.csv, columns: {m0/hinge: {angle: angle}}}");
+  }
+  std::vector<std::string> keys;
+  find_text(bench, file->text, "", keys);
+  return keys;
+}
+
+/// Count of reversals by more than a share of the span of the values.
+std::size_t reversals(const std::vector<double>& values, double share) {
+  if (values.empty()) return 0;
+  const auto [low, high] = std::ranges::minmax(values);
+  const double least = share * (high - low);
+  std::size_t count = 0;
+  double extreme = values[0];
+  int way = 0;
+  for (const double value : values) {
+    if (std::abs(value - extreme) > least && (value > extreme) != (way > 0)) {
+      if (way != 0) ++count;
+      way = value > extreme ? 1 : -1;
+      extreme = value;
+    } else if ((way > 0 && value > extreme) || (way < 0 && value < extreme)) {
+      extreme = value;
+    }
+  }
+  return count;
+}
+
+/// Settings of the start of a run: angles of the log's first row, and its length.
+std::vector<std::string> start_of(const Scenario& scenario) {
+  const MeasuredLog& log = *scenario.measured.log;
+  std::vector<std::string> sets{"duration=" + number_text(log.t.back())};
+  for (const MeasuredLog::OfJoint& joint : log.joints) {
+    const std::vector<double>& angle = joint.of(Logged::angle);
+    if (!angle.empty())
+      sets.push_back(fmt::format("initial.angles.{}={}", scenario.robot->joints[joint.joint].name, number_text(angle[0])));
+  }
+  return sets;
+}
+
+/// Settings that state the efficiency of a servo instead of its stall current: a stated stall current bounds the product of
+/// torque and speed, and logs without currents do not tell it.
+std::vector<std::string> free_current(const Scenario& scenario) {
+  const SettingsNumbers numbers(scenario.actuator);
+  const SettingsNumbers::Found* const stall = numbers.find("stall_current");
+  const auto logged = [](const MeasuredLog::OfJoint& joint) { return !joint.of(Logged::current).empty(); };
+  if (stall == nullptr || !(stall->value[0] > 0) || std::ranges::any_of(scenario.measured.log->joints, logged)) return {};
+  const double efficiency = make_motors(scenario)->dc_motors()[scenario.measured.log->joints[0].joint].efficiency;
+  return {"actuator.stall_current=0", "actuator.efficiency=" + number_text(efficiency)};
+}
+
+/// Faults of the numbers of a log, by the motor that it should be of.
+class LogCheck {
+ public:
+  LogCheck(const BenchLog& log, Problems& problems) : log_(log), numbers_(*log.scenario.measured.log), problems_(problems) {
+    const std::unique_ptr<Actuator> motors = make_motors(log.scenario);
+    const DcMotor* const dc = motors == nullptr ? nullptr : motors->dc_motors();
+    for (const MeasuredLog::OfJoint& joint : numbers_.joints) {
+      if (dc != nullptr) motor_ = &dc[joint.joint];
+      name_ = log.scenario.robot->joints[joint.joint].name;
+      if (const auto& angle = joint.of(Logged::angle); !angle.empty()) check_angle(angle);
+      if (const auto& current = joint.of(Logged::current); !current.empty() && dc != nullptr) check_current(current);
+      if (const auto& duty = joint.of(Logged::duty); !duty.empty()) check_duty(duty);
+    }
+  }
+
+ private:
+  static double largest(const std::vector<double>& values) {
+    return std::abs(*std::ranges::max_element(values, {}, [](double one) { return std::abs(one); }));
+  }
+  template <class... Parts>
+  void add(fmt::format_string<Parts...> text, Parts&&... parts) {
+    problems_.add({log_.file}, fmt::format("joint {}: ", name_) + fmt::format(text, std::forward<Parts>(parts)...));
+  }
+
+  void check_angle(const std::vector<double>& angle) {
+    const auto [low, high] = std::ranges::minmax_element(angle);
+    const double span = *high - *low;
+    if (span < kStill) return add("the angle spans {:.3g} rad; expected a motion of at least {:.3g} rad", span, kStill);
+    const bool whole = std::ranges::all_of(angle, [](double one) { return one == std::round(one); });
+    if (span > kTurns && whole)
+      return add("the angles are whole numbers from {:.6g} to {:.6g}, which look like ticks; expected rad, with the ticks per rad "
+                 "as scale, such as 651.9 for 4096 per turn", *low, *high);
+    if (span > kTurns)
+      return add("the angles span {:.4g}, which look like degrees; expected rad, with 57.29578 as scale", span);
+    check_jumps(angle);
+  }
+
+  void check_jumps(const std::vector<double>& angle) {
+    if (motor_ == nullptr || !(motor_->Ks > 0)) return;
+    const double fastest = kTooFast * motor_->u_max / (motor_->Ks * motor_->gear);
+    std::vector<double> apart;
+    for (std::size_t k = 1; k < angle.size(); ++k) apart.push_back(numbers_.t[k] - numbers_.t[k - 1]);
+    std::vector<double> sorted = apart;
+    std::ranges::nth_element(sorted, sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2));
+    const double usual = sorted[sorted.size() / 2];
+    std::vector<std::string> rows;
+    for (std::size_t k = 1; k < angle.size(); ++k) {
+      if (std::abs(angle[k] - angle[k - 1]) > fastest * std::max(apart[k - 1], usual)) rows.push_back(std::to_string(k + 1));
+    }
+    if (!rows.empty())
+      add("the angle jumps faster than {:.3g} rad/s, {:.0f} times the speed of the motor, at row{} {}; remove these rows", fastest,
+          kTooFast, rows.size() == 1 ? "" : "s", joined(rows));
+  }
+
+  void check_current(const std::vector<double>& current) {
+    if (const double most = largest(current); most > kTooMuch * motor_->u_max / motor_->R)
+      add("the current reaches {:.4g} A, {:.0f} times that of the stalled motor; expected A: mA have 1000 as scale", most,
+          most / (motor_->u_max / motor_->R));
+  }
+
+  void check_duty(const std::vector<double>& duty) {
+    if (const double most = largest(duty); most > kWhole)
+      add("the duty reaches {:.4g}; expected at most 1, with the number of full duty as scale, such as 885 or 100", most);
+  }
+
+  static constexpr double kStill = 0.02;    // rad, some ticks of 12 bits; chosen
+  static constexpr double kTurns = 50;      // rad, 8 turns; chosen: no hinge of a robot's gait turns further
+  static constexpr double kTooFast = 4;     // the number
+  static constexpr double kTooMuch = 50;    // of the stall current; chosen between a wrong data sheet and mA
+  static constexpr double kWhole = 1.05;    // chosen: rounding of a PWM
+  const BenchLog& log_;
+  const MeasuredLog& numbers_;
+  Problems& problems_;
+  const DcMotor* motor_ = nullptr;
+  std::string name_;
+};
+
+}  // namespace
+
+std::vector<BenchLog> read_bench(const std::string& file, const std::vector<std::string>& sets,
+                                 const std::vector<std::string>& logs, Catalog& catalog) {
+  const std::vector<std::string> of_log = keys_of_log(read_yaml(file));
+  std::vector<Entry> entries;
+  for (const std::string& log : logs) std::ranges::move(entries_of(log), std::back_inserter(entries));
+  std::vector<BenchLog> made;
+  Problems problems;
+  for (Entry& entry : entries) {
+    BenchLog log;
+    log.file = entry.file;
+    log.name = fs::path(entry.file).stem().string();
+    log.group = entry.group;
+    if (log.group.empty()) log.group = entry.sets.empty() ? log.name : fmt::format("{}", fmt::join(entry.sets, ", "));
+    log.sets = sets;
+    std::ranges::move(entry.sets, std::back_inserter(log.sets));
+    for (const std::string& key : of_log) log.sets.push_back(key + "=" + quoted(absolute(entry.file)));
+    try {
+      log.hash = hash128(read_file(entry.file, kMostScenario));
+      const Scenario as_stated = read_scenario(file, log.sets, catalog);
+      std::ranges::move(start_of(as_stated), std::back_inserter(log.sets));
+      std::ranges::move(free_current(as_stated), std::back_inserter(log.sets));
+      log.with = std::make_unique<ScenarioTemplate>(file, log.sets, catalog);
+      log.scenario = log.with->with({});
+      made.push_back(std::move(log));
+    } catch (const InputError& error) {
+      for (Problem problem : error.problems()) {
+        if (entry.place.line > 0) problem.notes.emplace_back(entry.place, "the row of this log");
+        problems.add(std::move(problem));
+      }
+    }
+  }
+  problems.raise();
+  return made;
+}
+
+void check_logs(const std::vector<BenchLog>& logs) {
+  Problems problems;
+  for (const BenchLog& log : logs) LogCheck(log, problems);
+  problems.raise();
+}
+
+void check_peaks(const std::vector<BenchLog>& logs, std::size_t keys) {
+  constexpr double kOfSpan = 0.1;  // chosen: smaller reversals are noise
+  std::size_t peaks = 0;
+  for (const BenchLog& log : logs) {
+    if (log.held_out) continue;
+    for (const MeasuredLog::OfJoint& joint : log.scenario.measured.log->joints) peaks += reversals(joint.of(Logged::angle), kOfSpan);
+  }
+  if (peaks < keys)
+    throw InputError(SourceLocation{"--fit"}, fmt::format("{} cannot be told from {} of the fitted angles; fit fewer keys, or log "
+                                                          "more motion", counted(keys, "key"), counted(peaks, "reversal")));
+}
+
+void hold_out(std::vector<BenchLog>& logs, const std::vector<std::string>& patterns, double share, std::int64_t seed) {
+  for (const std::string& pattern : patterns) {
+    bool any = false;
+    for (BenchLog& log : logs) {
+      if (!glob(pattern, log.name)) continue;
+      any = log.held_out = true;
+    }
+    if (!any) throw InputError(SourceLocation{"--hold-out"}, fmt::format("no log matches {}", in_quotes(pattern)));
+  }
+  if (patterns.empty()) {
+    std::map<std::string, double> groups;  // by name, a number drawn for each
+    for (const BenchLog& log : logs)
+      groups[log.group] = math::uniform({static_cast<std::uint64_t>(seed), math::fnv1a32(log.group)});
+    std::vector<std::pair<double, std::string>> order;
+    for (const auto& [name, drawn] : groups) order.emplace_back(drawn, name);
+    std::ranges::sort(order);
+    const auto out = static_cast<std::size_t>(std::floor(share * static_cast<double>(order.size())));
+    for (BenchLog& log : logs)
+      log.held_out = std::ranges::any_of(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(out),
+                                         [&](const auto& one) { return one.second == log.group; });
+  }
+  const auto fitted = std::ranges::count(logs, false, &BenchLog::held_out);
+  if (fitted < 2)
+    throw InputError(SourceLocation{"--hold-out"},
+                     fmt::format("{} to fit are left of {}; expected at least 2",
+                                 counted(static_cast<std::size_t>(fitted), "log"), counted(logs.size(), "log")));
+}
+
+}  // namespace gaitlab::identify

@@ -1,0 +1,43 @@
+// The bench of an identification: a scenario, and the logs that it replays.
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/plugin/catalog.h"
+#include "core/scenario/read_scenario.h"
+
+namespace gaitlab::identify {
+
+/// A log, and the scenario with which it is compared.
+struct BenchLog {
+  std::string file;               ///< its path
+  std::string name;               ///< name of the file without its ending
+  std::string group;              ///< logs of a group are left out together when terms are chosen
+  std::string hash;               ///< hash of its text
+  bool held_out = false;          ///< true if the log is not fitted
+  std::vector<std::string> sets;  ///< settings of this log, in the form of --set
+  Scenario scenario;              ///< with the bench's values of all keys
+  std::unique_ptr<ScenarioTemplate> with;
+};
+
+/// Reads the bench for every log. `logs` are files, and tables of logs: a CSV whose first column is `file`; a column `group`
+/// names groups, and every other column is a setting with a value per log. Without it, logs with equal settings are a group, or
+/// each log without settings. Wherever the bench names the file of its section
+/// `measured`, the run of a log has that log; it begins at the angles of the log's first row, and lasts as long as the log.
+/// Throws InputError with the problems of all logs.
+std::vector<BenchLog> read_bench(const std::string& file, const std::vector<std::string>& sets,
+                                 const std::vector<std::string>& logs, Catalog& catalog);
+
+/// Throws InputError for a log that no servo can have recorded: an angle that does not move, that looks like degrees or ticks,
+/// or that jumps faster than 4 times the speed of the motor; a duty above 1; currents in mA.
+void check_logs(const std::vector<BenchLog>& logs);
+
+/// Throws InputError if the fitted logs have fewer reversals of their angles than there are keys.
+void check_peaks(const std::vector<BenchLog>& logs, std::size_t keys);
+
+/// Marks the held-out logs: those whose name matches one of `patterns` (with * and ?), or, without a pattern, a share of the groups, drawn by
+/// `seed`. Throws InputError for a pattern without a log, and if fewer than two logs are left.
+void hold_out(std::vector<BenchLog>& logs, const std::vector<std::string>& patterns, double share, std::int64_t seed);
+
+}  // namespace gaitlab::identify

@@ -1,0 +1,147 @@
+#include "identify/findings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/laws/dc_motor.h"
+#include "core/scenario/built_robot.h"
+
+namespace gaitlab::identify {
+
+namespace {
+
+constexpr double kTrade = 0.9;    // correlation; chosen
+constexpr double kWide = 0.5;     // half width of an interval as a share of the value; chosen
+constexpr double kShare = 0.1;    // of the time at the limit; the number
+constexpr double kFar = 2;        // times the median error of the logs; chosen
+constexpr double kReached = 0.98; // of a limit; chosen
+
+/// The measurement that tells two keys apart.
+struct Remedy {
+  const char *one, *other, *text;
+};
+constexpr Remedy kRemedies[] = {
+    {"actuator.no_load_speed", "actuator.viscous_friction", "a log without torque (`on` = 0) that swings tells them apart"},
+    {"actuator.stall_torque", "actuator.load_friction", "a load that is lowered slowly tells them apart"},
+    {"actuator.stall_torque", "actuator.no_load_speed", "fast motion without a load tells them apart"},
+    {"actuator.dry_friction", "actuator.viscous_friction", "slow and fast motion in one log tell them apart"},
+    {"actuator.rotor_inertia", "controller.latency", "a step of the set point at a high sampling rate tells them apart"},
+};
+
+const char* remedy(const std::string& one, const std::string& other) {
+  for (const Remedy& row : kRemedies) {
+    if ((row.one == one && row.other == other) || (row.one == other && row.other == one)) return row.text;
+  }
+  return "a log in which only one of them matters tells them apart";
+}
+
+bool any_has(const std::vector<BenchLog>& logs, std::initializer_list<Logged> kinds) {
+  return std::ranges::any_of(logs, [&](const BenchLog& log) {
+    return std::ranges::any_of(log.scenario.measured.log->joints, [&](const MeasuredLog::OfJoint& joint) {
+      return std::ranges::any_of(kinds, [&](Logged kind) { return !joint.of(kind).empty(); });
+    });
+  });
+}
+
+/// True if a log has rows without torque.
+bool swings_free(const BenchLog& log) {
+  return std::ranges::any_of(log.scenario.changes, [](const Change& change) {
+    return std::ranges::any_of(change.faults, [](const JointFault& fault) { return fault.kind == FaultKind::open; });
+  });
+}
+
+class Findings {
+ public:
+  Findings(const Identified& made, const std::vector<BenchLog>& logs, const std::vector<Key>& keys)
+      : made_(made), logs_(logs), keys_(keys) {}
+
+  std::vector<std::string> take() {
+    add_missing();
+    add_trades();
+    add_wide();
+    add_limits();
+    add_logs();
+    return std::move(all_);
+  }
+
+ private:
+  template <class... Parts>
+  void add(fmt::format_string<Parts...> text, Parts&&... parts) {
+    all_.push_back(fmt::format(text, std::forward<Parts>(parts)...));
+  }
+  [[nodiscard]] bool fitted(const std::string& name) const {
+    return std::ranges::any_of(made_.keys, [&](const IdentifiedKey& one) { return one.fitted && keys_[one.key].name == name; });
+  }
+
+  void add_missing() {
+    if (!any_has(logs_, {Logged::duty, Logged::voltage, Logged::current, Logged::torque}) && fitted("actuator.stall_torque"))
+      add("no log has a duty, a voltage, a current or a torque: stall_torque is right only as far as the controller's gain is, "
+          "because their product moves the joint");
+    const auto fits = [](const BenchLog& log) { return !log.held_out; };
+    const bool free = std::ranges::any_of(logs_, [&](const BenchLog& log) { return fits(log) && swings_free(log); });
+    if (!free && fitted("actuator.viscous_friction"))
+      add("no fitted log swings without torque (`on` = 0): friction and back EMF act together in all of them");
+  }
+
+  void add_trades() {
+    const std::vector<std::size_t>& of = made_.best.at.keys;
+    for (Eigen::Index i = 0; i < made_.correlation.rows(); ++i) {
+      for (Eigen::Index j = 0; j < i; ++j) {
+        const double r = made_.correlation(i, j);
+        if (std::abs(r) < kTrade) continue;
+        const std::string& one = keys_[of[static_cast<std::size_t>(j)]].name;
+        const std::string& other = keys_[of[static_cast<std::size_t>(i)]].name;
+        add("{} and {} trade (correlation {:.2f}); {}", one, other, r, remedy(one, other));
+      }
+    }
+  }
+
+  void add_wide() {
+    for (const IdentifiedKey& one : made_.keys) {
+      const double half = (one.high - one.low) / 2;
+      if (one.fitted && half > kWide * std::abs(one.value))
+        add("{} is known to +- {:.0f} % only", keys_[one.key].name, 100 * half / std::abs(one.value));
+    }
+  }
+
+  void add_limits() {
+    const std::unique_ptr<Actuator> motors = make_motors(logs_[0].scenario);
+    const DcMotor* const dc = motors == nullptr ? nullptr : motors->dc_motors();
+    if (!fitted("actuator.i_max") || dc == nullptr) return;
+    const auto limit = std::ranges::find_if(made_.keys, [&](const IdentifiedKey& one) { return keys_[one.key].name == "actuator.i_max"; });
+    const auto reached = [&](const Compared& run) { return run.largest_current >= kReached * limit->value; };
+    if (std::ranges::none_of(made_.after, reached)) add("actuator.i_max: no log reaches it; its value is a lower bound");
+  }
+
+  void add_logs() {
+    std::vector<double> errors;
+    for (const Compared& run : made_.after) errors.push_back(angle_error(run));
+    std::vector<double> sorted = errors;
+    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+    std::ranges::nth_element(sorted, middle);
+    for (std::size_t l = 0; l < logs_.size(); ++l) {
+      if (errors[l] > kFar * *middle)
+        add("log {} is {:.1f} times as far off as the median log; look at it before the numbers are used", logs_[l].name, errors[l] / *middle);
+      const report::LogErrors& of = *made_.after[l].errors;
+      const auto simulated = of.mean(&report::JointLogErrors::at_limit);
+      const auto measured = of.mean(&report::JointLogErrors::measured_at_limit);
+      if (simulated && measured && std::abs(*simulated - *measured) > kShare)
+        add("log {}: at the limit for {:.2f} of the time, {:.2f} in the log", logs_[l].name, *simulated, *measured);
+    }
+  }
+
+  const Identified& made_;
+  const std::vector<BenchLog>& logs_;
+  const std::vector<Key>& keys_;
+  std::vector<std::string> all_;
+};
+
+}  // namespace
+
+std::vector<std::string> findings(const Identified& made, const std::vector<BenchLog>& logs, const std::vector<Key>& keys) {
+  return Findings(made, logs, keys).take();
+}
+
+}  // namespace gaitlab::identify

@@ -1,0 +1,217 @@
+#include "identify/identify.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/math/distributions/students_t.hpp>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numeric>
+
+#include "core/errors.h"
+#include "core/math/random.h"
+#include "core/math/functions.h"
+
+namespace gaitlab::identify {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kWorth = 0.05;      // the number
+constexpr double kAgreement = 0.02;  // chosen
+constexpr std::size_t kMostFolds = 4;  // chosen: each fold is a fit
+
+std::vector<std::size_t> fitted_logs(const std::vector<BenchLog>& logs) {
+  std::vector<std::size_t> fitted;
+  for (std::size_t i = 0; i < logs.size(); ++i) {
+    if (!logs[i].held_out) fitted.push_back(i);
+  }
+  return fitted;
+}
+
+/// Fold of each fitted log: logs of a group are in the same fold.
+std::vector<std::size_t> folds_of(const std::vector<BenchLog>& logs, const std::vector<std::size_t>& fitted) {
+  std::map<std::string, std::size_t> groups;
+  std::vector<std::size_t> folds;
+  for (const std::size_t i : fitted) folds.push_back(groups.try_emplace(logs[i].group, groups.size()).first->second % kMostFolds);
+  return folds;
+}
+
+Point start(const ErrorModels& models, std::size_t number, std::int64_t seed) {
+  Point point;
+  point.values.resize(static_cast<Index>(models.keys().size()));
+  for (std::size_t k = 0; k < models.keys().size(); ++k) {
+    const Key& key = models.keys()[k];
+    const double drawn = math::uniform({static_cast<std::uint64_t>(seed), number, k});
+    double value = key.start;
+    if (number > 0) value = key.start > 0 ? key.start * math::exp((2 * drawn - 1) * math::log(2.0)) : models.scale(k) * drawn;
+    point.keys.push_back(k);
+    point.values[static_cast<Index>(k)] = std::clamp(value, key.low, key.high);
+  }
+  return point;
+}
+
+Point without(const Point& point, std::size_t position) {
+  Point less;
+  less.values.resize(point.values.size() - 1);
+  for (std::size_t k = 0, to = 0; k < point.keys.size(); ++k) {
+    if (k == position) continue;
+    less.keys.push_back(point.keys[k]);
+    less.values[static_cast<Index>(to++)] = point.values[static_cast<Index>(k)];
+  }
+  return less;
+}
+
+/// Mean magnitude of the differences of the fitted logs, each by the fit without its fold. Every fit starts at `start`.
+double left_out_error(ErrorModels& models, const Point& start) {
+  const std::vector<std::size_t> fitted = fitted_logs(models.logs());
+  const std::vector<std::size_t> folds = folds_of(models.logs(), fitted);
+  std::vector<Fit> fits(*std::ranges::max_element(folds) + 1, Fit{start});
+  for (std::size_t i = 0; i < fitted.size(); ++i) {
+    for (std::size_t fold = 0; fold < fits.size(); ++fold) {
+      if (folds[i] != fold) fits[fold].logs.push_back(fitted[i]);
+    }
+  }
+  solve(fits, models);
+  std::vector<Question> questions;
+  for (std::size_t i = 0; i < fitted.size(); ++i) questions.push_back({fitted[i], fits[folds[i]].at});
+  double sum = 0;
+  for (const ErrorModel& one : models(questions)) sum += one.whole ? one.mae : std::numeric_limits<double>::infinity();
+  return sum / static_cast<double>(fitted.size());
+}
+
+/// Position of the key whose return to the bench's value costs least by the models at the fit, among those not yet `kept`.
+std::optional<std::size_t> cheapest(const Fit& fit, const ErrorModels& models, const std::vector<std::size_t>& kept) {
+  MatrixXd curvature = MatrixXd::Zero(fit.at.values.size(), fit.at.values.size());
+  for (const ErrorModel& model : fit.models) curvature += model.curvature;
+  curvature.diagonal().array() += 1e-9 * curvature.trace();
+  const MatrixXd inverse = curvature.inverse();
+  std::optional<std::size_t> best;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < fit.at.keys.size(); ++k) {
+    const std::size_t key = fit.at.keys[k];
+    if (std::ranges::find(kept, key) != kept.end()) continue;
+    const auto at = static_cast<Index>(k);
+    const double back = (fit.at.values[at] - models.keys()[key].start) / models.scale(key);
+    const double cost = back * back / inverse(at, at);
+    if (cost < least) {
+      least = cost;
+      best = k;
+    }
+  }
+  return best;
+}
+
+/// A value with as many digits as a tenth of its interval's half width needs, at least one.
+double rounded(double value, double half) {
+  if (!(half > 0) || !std::isfinite(half)) return value;
+  const double unit = math::exp(math::log(10.0) * std::floor(math::log(half / 10) / math::log(10.0)));
+  const double near = std::round(value / unit) * unit;
+  constexpr double kDigits = 1e12;  // removes the rounding of `unit`
+  const double size = std::round(near * kDigits) / kDigits;
+  return size > 0 ? size : value;
+}
+
+/// Intervals by leaving out one log each (jackknife), on the second-order models: the change of the fit without log l is d_l,
+/// and the variance (n - 1) / n sum (d_l - mean)^2; B. Efron, C. Stein, The jackknife estimate of variance, 1981. Student's t has
+/// n - 1 degrees of freedom.
+MatrixXd covariance(const Fit& fit, const ErrorModels& models) {
+  const std::size_t n = fit.models.size();
+  MatrixXd changes(fit.at.values.size(), static_cast<Index>(n));
+  for (std::size_t l = 0; l < n; ++l) {
+    std::vector<ErrorModel> others = fit.models;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(l));
+    changes.col(static_cast<Index>(l)) = model_step(fit, others, models, 0);
+  }
+  changes.colwise() -= changes.rowwise().mean().eval();
+  return changes * changes.transpose() * (static_cast<double>(n - 1) / static_cast<double>(n));
+}
+
+}  // namespace
+
+std::optional<double> mean_error(const std::vector<BenchLog>& logs, const std::vector<Compared>& runs, bool held_out) {
+  double sum = 0;
+  std::size_t count = 0;
+  for (std::size_t l = 0; l < logs.size(); ++l) {
+    if (logs[l].held_out != held_out) continue;
+    sum += angle_error(runs[l]);
+    ++count;
+  }
+  return count == 0 ? std::nullopt : std::optional(sum / static_cast<double>(count));
+}
+
+double angle_error(const Compared& run) { return run.errors->mean(Logged::angle, &report::LogError::mae).value_or(0); }
+
+Identified identify(ErrorModels& models, const IdentifySettings& settings) {
+  const std::vector<std::size_t> fitted = fitted_logs(models.logs());
+  Identified made;
+  made.starts = settings.drawn + 1;
+  std::vector<Fit> fits;
+  for (std::size_t s = 0; s < made.starts; ++s) fits.push_back({start(models, s, settings.seed), fitted});
+  settings.told("starts");
+  solve(fits, models);
+  std::ranges::stable_sort(fits, {}, &Fit::cost);
+  made.best = fits[0];
+  if (!std::isfinite(made.best.cost)) throw RunError("no run of the bench reaches its end; run the bench alone to see why");
+  made.agreed = static_cast<std::size_t>(std::ranges::count_if(
+      fits, [&](const Fit& fit) { return std::sqrt(fit.cost) <= (1 + kAgreement) * std::sqrt(made.best.cost); }));
+
+  std::vector<std::size_t> kept;  // keys that have earned their place
+  std::vector<double> worth(models.keys().size(), std::numeric_limits<double>::quiet_NaN());
+  if (settings.choose) {
+    settings.told("with all keys");
+    double error = left_out_error(models, made.best.at);
+    while (const auto position = cheapest(made.best, models, kept)) {
+      if (made.best.at.keys.size() == 1) break;
+      const std::size_t key = made.best.at.keys[*position];
+      settings.told("without " + models.keys()[key].name);
+      const Point less = without(made.best.at, *position);
+      const double other = left_out_error(models, less);
+      worth[key] = other / error - 1;
+      if (worth[key] >= kWorth) {
+        kept.push_back(key);
+        continue;
+      }
+      error = other;
+      Fit again{less, fitted};
+      solve({&again, 1}, models);
+      made.best = std::move(again);
+    }
+  }
+
+  const MatrixXd spread = covariance(made.best, models);
+  made.correlation = spread;
+  const boost::math::students_t student(static_cast<double>(fitted.size() - 1));
+  const double quantile = boost::math::quantile(student, 0.975);
+  for (std::size_t k = 0; k < models.keys().size(); ++k) {
+    IdentifiedKey& one = made.keys.emplace_back(IdentifiedKey{k, false, models.keys()[k].start});
+    one.worth = worth[k];
+    const auto at = std::ranges::find(made.best.at.keys, k) - made.best.at.keys.begin();
+    if (static_cast<std::size_t>(at) == made.best.at.keys.size()) continue;
+    one.fitted = true;
+    double& value = made.best.at.values[at];
+    const double half = quantile * std::sqrt(spread(at, at)) * models.scale(k);
+    value = one.value = std::clamp(rounded(value, half), models.keys()[k].low, models.keys()[k].high);
+    one.low = std::max(value - half, models.keys()[k].low);
+    one.high = value + half;
+    for (Index other = 0; other < spread.cols(); ++other) {
+      const double size = std::sqrt(spread(at, at) * spread(other, other));
+      made.correlation(at, other) = size > 0 ? spread(at, other) / size : 0;
+    }
+  }
+
+  settings.told("all logs");
+  made.before = models.compared(Point{});
+  made.after = models.compared(made.best.at);
+  for (std::size_t l = 0; l < made.after.size(); ++l) {
+    if (!made.after[l].errors) throw RunError(fmt::format("log {}: its run with the fitted values does not reach its end", models.logs()[l].name));
+  }
+  made.runs = models.runs();
+  return made;
+}
+
+}  // namespace gaitlab::identify

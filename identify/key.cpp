@@ -1,0 +1,124 @@
+#include "identify/key.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "core/laws/dc_motor.h"
+#include "core/scenario/built_robot.h"
+#include "core/settings/settings_numbers.h"
+#include "core/settings/value.h"
+#include "core/settings/wording.h"
+
+namespace gaitlab::identify {
+
+namespace {
+
+constexpr double kSpread = 20;  // chosen: data sheets are wrong by factors, not by orders of magnitude
+constexpr const char* kUsual[] = {"actuator.stall_torque",     "actuator.no_load_speed", "actuator.rotor_inertia",
+                                  "actuator.dry_friction",     "actuator.viscous_friction", "actuator.load_friction",
+                                  "controller.latency"};
+
+struct Number {
+  std::string unit;
+  PerJoint value;
+};
+
+/// Numbers of the bench's motor and its controller by key.
+std::vector<std::pair<std::string, Number>> numbers_of(const Scenario& bench) {
+  std::vector<std::pair<std::string, Number>> all;
+  const auto add = [&](const std::string& section, const PluginSelection& plugin) {
+    const SettingsNumbers numbers(plugin);
+    for (const SettingsNumbers::Found& one : numbers.all()) all.emplace_back(section + "." + one.key, Number{one.unit, one.value});
+  };
+  add("actuator", bench.actuator);
+  add("controller", bench.controller);
+  for (const SensorSelection& sensor : bench.sensors) add("sensors." + sensor.name, sensor.plugin);
+  return all;
+}
+
+/// Numbers LOW and HIGH of a text `LOW:HIGH`, or nothing.
+std::optional<std::pair<double, double>> range_of(const std::string& text) {
+  const std::size_t colon = text.find(':');
+  if (colon == std::string::npos) return {};
+  const auto number = [](const std::string& one) { return read_number(Node{Node::Kind::scalar, {}, one}, ""); };
+  const Reading<double> low = number(text.substr(0, colon));
+  const Reading<double> high = number(text.substr(colon + 1));
+  if (!low.ok() || !high.ok() || !(low.value < high.value)) return {};
+  return std::pair(low.value, high.value);
+}
+
+}  // namespace
+
+std::vector<Key> fitted_keys(const Scenario& bench, const std::vector<std::string>& asked) {
+  const std::vector<std::pair<std::string, Number>> known = numbers_of(bench);
+  std::vector<std::string> names;
+  for (const auto& one : known) names.push_back(one.first);
+  std::vector<std::string> wanted = asked;
+  if (wanted.empty()) {
+    for (const char* usual : kUsual) {
+      if (std::ranges::find(names, usual) != names.end()) wanted.emplace_back(usual);
+    }
+  }
+  Problems problems;
+  const SourceLocation option{"--fit"};
+  std::vector<Key> keys;
+  for (const std::string& text : wanted) {
+    const std::size_t equals = text.find('=');
+    const std::string name = text.substr(0, equals);
+    const auto at = std::ranges::find(known, name, [](const auto& one) { return one.first; });
+    if (at == known.end()) {
+      problems.add(option, fmt::format("{} is no number of the bench's actuator, controller or sensors{}", in_quotes(name),
+                                       offer(name, names, "keys")));
+      continue;
+    }
+    if (std::ranges::find(keys, name, &Key::name) != keys.end()) {
+      problems.add(option, fmt::format("{} is named twice", name));
+      continue;
+    }
+    const PerJoint& value = at->second.value;
+    if (std::ranges::any_of(value.each, [&](double one) { return one != value.each.front(); })) {
+      problems.add(option, fmt::format("{} differs between the joints of the bench; expected one value for all", name));
+      continue;
+    }
+    Key key{name, at->second.unit, value[0], value[0] / kSpread, value[0] * kSpread};
+    if (name == "actuator.i_max" && key.start == 0 && bench.actuator.entry != nullptr) {
+      const std::unique_ptr<Actuator> motors = make_motors(bench);
+      key.start = motors->dc_motors()[0].i_max;
+      key.low = key.start / kSpread;
+      key.high = key.start * kSpread;
+    }
+    if (equals != std::string::npos) {
+      const auto range = range_of(text.substr(equals + 1));
+      if (!range) {
+        problems.add(option, fmt::format("{} has the range {}; expected LOW:HIGH with LOW below HIGH", name,
+                                         in_quotes(text.substr(equals + 1))));
+        continue;
+      }
+      std::tie(key.low, key.high) = *range;
+      key.start = std::clamp(key.start, key.low, key.high);
+    } else if (!(key.start > 0)) {
+      // Zero says nothing of the size of a usual value; a key that nobody asked for then stays as it is.
+      if (!asked.empty())
+        problems.add(option, fmt::format("{} is {} in the bench; expected a range, as in --fit {}=LOW:HIGH", name,
+                                         number_text(key.start), name));
+      continue;
+    } else if (name.find("friction") != std::string::npos) {
+      key.low = 0;
+    }
+    if (name == "controller.latency") {
+      key.low = 0;
+      key.least = bench.control_period;  // a latency counts in whole control periods
+    }
+    keys.push_back(std::move(key));
+  }
+  problems.raise();
+  if (keys.empty())
+    throw InputError(option, "the bench has none of the usual keys with a value above 0; name keys with --fit KEY=LOW:HIGH");
+  return keys;
+}
+
+}  // namespace gaitlab::identify

@@ -1,0 +1,24 @@
+// Settings of a servo that logs can identify.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "core/scenario/scenario.h"
+
+namespace gaitlab::identify {
+
+/// A number of the scenario that is fitted, the same for all joints, in its unit.
+struct Key {
+  std::string name;   ///< as in --set, such as `actuator.dry_friction`
+  std::string unit;
+  double start = 0;   ///< its value in the bench
+  double low = 0, high = 0;
+  double least = 0;   ///< least difference of two values that a run can tell apart; 0 for any
+};
+
+/// Keys of the bench to fit: those that `asked` names (NAME or NAME=LOW:HIGH), or else the usual ones that its actuator and
+/// controller have. A key without a range has from a 20th of its value to 20 times its value. Throws InputError for an unknown
+/// name, a key that differs between joints, a bad range, and a start of 0 without a range.
+std::vector<Key> fitted_keys(const Scenario& bench, const std::vector<std::string>& asked);
+
+}  // namespace gaitlab::identify

@@ -1,0 +1,19 @@
+// Text of the servo file of an identification.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "identify/identify.h"
+
+namespace gaitlab::identify {
+
+/// Sentence on the origin of the fitted values: logs, their hash, errors, and the range of speeds that the logs cover.
+std::string source_text(const Identified& made, const std::vector<BenchLog>& logs);
+
+/// Servo file `name` (core/robot_files/servo_file.h): the keys of actuator and controller that the bench `file` with the
+/// settings `sets` states, with the fitted values. Keys of the supply and of the controller's clock are left out, because they
+/// belong to the robot. Throws InputError if the bench cannot be read.
+std::string servo_text(const std::string& name, const std::string& file, const std::vector<std::string>& sets,
+                       const Identified& made, const std::vector<BenchLog>& logs, const std::vector<Key>& keys);
+
+}  // namespace gaitlab::identify
