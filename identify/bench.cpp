@@ -12,11 +12,11 @@
 #include "core/files/atomic_file.h"
 #include "core/files/csv_table.h"
 #include "core/files/hash.h"
+#include "core/laws/dc_motor.h"
+#include "core/math/philox.h"
 #include "core/math/random.h"
 #include "core/model/pattern.h"
-#include "core/laws/dc_motor.h"
 #include "core/scenario/built_robot.h"
-#include "core/math/philox.h"
 #include "core/settings/settings_numbers.h"
 #include "core/settings/wording.h"
 
@@ -76,9 +76,10 @@ std::vector<std::string> keys_of_log(const Node& bench) {
   const Node* const measured = bench.find(kMeasuredSection);
   const Node* const file = measured == nullptr ? nullptr : measured->find("file");
   if (file == nullptr) {
-    throw InputError(measured == nullptr ? bench.place : measured->place,
-                     "the bench has no measured.file; expected a section measured with the file of a log and its columns, such as "
-                     "measured: {file: log.csv, columns: {m0/hinge: {angle: angle}}}");
+    throw InputError(
+        measured == nullptr ? bench.place : measured->place,
+        "the bench has no measured.file; expected a section measured with the file of a log and its columns, such as "
+        "measured: {file: log.csv, columns: {m0/hinge: {angle: angle}}}");
   }
   std::vector<std::string> keys;
   find_text(bench, file->text, "", keys);
@@ -158,8 +159,10 @@ class LogCheck {
     if (span < kStill) return add("the angle spans {:.3g} rad; expected a motion of at least {:.3g} rad", span, kStill);
     const bool whole = std::ranges::all_of(angle, [](double one) { return one == std::round(one); });
     if (span > kTurns && whole)
-      return add("the angles are whole numbers from {:.6g} to {:.6g}, which look like ticks; expected rad, with the ticks per rad "
-                 "as scale, such as 651.9 for 4096 per turn", *low, *high);
+      return add(
+          "the angles are whole numbers from {:.6g} to {:.6g}, which look like ticks; expected rad, with the ticks per rad "
+          "as scale, such as 651.9 for 4096 per turn",
+          *low, *high);
     if (span > kTurns)
       return add("the angles span {:.4g}, which look like degrees; expected rad, with 57.29578 as scale", span);
     check_jumps(angle);
@@ -178,8 +181,8 @@ class LogCheck {
       if (std::abs(angle[k] - angle[k - 1]) > fastest * std::max(apart[k - 1], usual)) rows.push_back(std::to_string(k + 1));
     }
     if (!rows.empty())
-      add("the angle jumps faster than {:.3g} rad/s, {:.0f} times the speed of the motor, at row{} {}; remove these rows", fastest,
-          kTooFast, rows.size() == 1 ? "" : "s", joined(rows));
+      add("the angle jumps faster than {:.3g} rad/s, {:.0f} times the speed of the motor, at row{} {}; remove these rows",
+          fastest, kTooFast, rows.size() == 1 ? "" : "s", joined(rows));
   }
 
   void check_current(const std::vector<double>& current) {
@@ -193,11 +196,11 @@ class LogCheck {
       add("the duty reaches {:.4g}; expected at most 1, with the number of full duty as scale, such as 885 or 100", most);
   }
 
-  static constexpr double kStill = 0.02;    // rad, some ticks of 12 bits; chosen
-  static constexpr double kTurns = 50;      // rad, 8 turns; chosen: no hinge of a robot's gait turns further
-  static constexpr double kTooFast = 4;     // the number
-  static constexpr double kTooMuch = 50;    // of the stall current; chosen between a wrong data sheet and mA
-  static constexpr double kWhole = 1.05;    // chosen: rounding of a PWM
+  static constexpr double kStill = 0.02;  // rad, some ticks of 12 bits; chosen
+  static constexpr double kTurns = 50;    // rad, 8 turns; chosen: no hinge of a robot's gait turns further
+  static constexpr double kTooFast = 4;   // the number
+  static constexpr double kTooMuch = 50;  // of the stall current; chosen between a wrong data sheet and mA
+  static constexpr double kWhole = 1.05;  // chosen: rounding of a PWM
   const BenchLog& log_;
   const MeasuredLog& numbers_;
   Problems& problems_;
@@ -248,16 +251,23 @@ void check_logs(const std::vector<BenchLog>& logs) {
   problems.raise();
 }
 
-void check_peaks(const std::vector<BenchLog>& logs, std::size_t keys) {
+void check_peaks(const std::vector<BenchLog>& logs, Logged kind, std::size_t keys) {
   constexpr double kOfSpan = 0.1;  // chosen: smaller reversals are noise
   std::size_t peaks = 0;
   for (const BenchLog& log : logs) {
+    const auto& joints = log.scenario.measured.log->joints;
+    if (std::ranges::all_of(joints, [&](const MeasuredLog::OfJoint& joint) { return joint.of(kind).empty(); }))
+      throw InputError(SourceLocation{log.file},
+                       fmt::format("no column of the bench has the {}; expected one for a joint in measured.columns",
+                                   logged_kinds()[static_cast<std::size_t>(kind)].key));
     if (log.held_out) continue;
-    for (const MeasuredLog::OfJoint& joint : log.scenario.measured.log->joints) peaks += reversals(joint.of(Logged::angle), kOfSpan);
+    for (const MeasuredLog::OfJoint& joint : joints) peaks += reversals(joint.of(kind), kOfSpan);
   }
   if (peaks < keys)
-    throw InputError(SourceLocation{"--fit"}, fmt::format("{} cannot be told from {} of the fitted angles; fit fewer keys, or log "
-                                                          "more motion", counted(keys, "key"), counted(peaks, "reversal")));
+    throw InputError(SourceLocation{"--fit"},
+                     fmt::format("{} cannot be told from {} in the fitted logs; fit fewer keys, or log "
+                                 "more motion",
+                                 counted(keys, "key"), counted(peaks, "reversal")));
 }
 
 void hold_out(std::vector<BenchLog>& logs, const std::vector<std::string>& patterns, double share, std::int64_t seed) {
@@ -284,8 +294,7 @@ void hold_out(std::vector<BenchLog>& logs, const std::vector<std::string>& patte
   const auto fitted = std::ranges::count(logs, false, &BenchLog::held_out);
   if (fitted < 2)
     throw InputError(SourceLocation{"--hold-out"},
-                     fmt::format("{} to fit are left of {}; expected at least 2",
-                                 counted(static_cast<std::size_t>(fitted), "log"), counted(logs.size(), "log")));
+                     fmt::format("{} of {} is left to fit; expected at least 2", fitted, counted(logs.size(), "log")));
 }
 
 }  // namespace gaitlab::identify

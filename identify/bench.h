@@ -33,11 +33,11 @@ std::vector<BenchLog> read_bench(const std::string& file, const std::vector<std:
 /// or that jumps faster than 4 times the speed of the motor; a duty above 1; currents in mA.
 void check_logs(const std::vector<BenchLog>& logs);
 
-/// Throws InputError if the fitted logs have fewer reversals of their angles than there are keys.
-void check_peaks(const std::vector<BenchLog>& logs, std::size_t keys);
+/// Throws InputError if a log lacks the quantity, or if it reverses less often in all fitted logs than there are keys.
+void check_peaks(const std::vector<BenchLog>& logs, Logged kind, std::size_t keys);
 
-/// Marks the held-out logs: those whose name matches one of `patterns` (with * and ?), or, without a pattern, a share of the groups, drawn by
-/// `seed`. Throws InputError for a pattern without a log, and if fewer than two logs are left.
+/// Marks the held-out logs: those whose name matches one of `patterns` (with * and ?), or, without a pattern, a share of the
+/// groups, drawn by `seed`. Throws InputError for a pattern without a log, and if fewer than two logs are left.
 void hold_out(std::vector<BenchLog>& logs, const std::vector<std::string>& patterns, double share, std::int64_t seed);
 
 }  // namespace gaitlab::identify

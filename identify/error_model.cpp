@@ -17,14 +17,14 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 /// Differences simulated - measured of all joints, one after another; empty if the run did not reach its end.
-VectorXd residuals(const Scenario& scenario, const Recording& recording) {
+VectorXd residuals(const Scenario& scenario, const Recording& recording, Logged kind) {
   if (!recording.outcome.done()) return {};
   std::vector<double> all;
   const MeasuredLog& log = *scenario.measured.log;
   for (const MeasuredLog::OfJoint& joint : log.joints) {
-    const std::vector<double>& measured = joint.of(Logged::angle);
+    const std::vector<double>& measured = joint.of(kind);
     if (measured.empty()) continue;
-    const std::vector<double> simulated = report::at_log(scenario, recording, joint.joint, Logged::angle);
+    const std::vector<double> simulated = report::at_log(scenario, recording, joint.joint, kind);
     if (simulated.size() < measured.size()) return {};
     for (std::size_t k = 0; k < measured.size(); ++k) all.push_back(simulated[k] - measured[k]);
   }
@@ -33,16 +33,18 @@ VectorXd residuals(const Scenario& scenario, const Recording& recording) {
 
 }  // namespace
 
-ErrorModels::ErrorModels(const std::vector<BenchLog>& logs, const std::vector<Key>& keys, int threads, std::atomic<bool>& stop)
-    : logs_(logs), keys_(keys), threads_(threads), stop_(stop) {
+ErrorModels::ErrorModels(const std::vector<BenchLog>& logs, const std::vector<Key>& keys, Logged kind, int threads,
+                         std::atomic<bool>& stop)
+    : logs_(logs), keys_(keys), kind_(kind), threads_(threads), stop_(stop) {
   double sum = 0;
   double count = 0;
   const std::vector<Compared> bench = compared(Point{});
   for (std::size_t l = 0; l < logs.size(); ++l) {
     if (!bench[l].errors)
-      throw RunError(fmt::format("log {}: the run of the bench does not reach the end of the log; run the bench to see why", logs[l].name));
+      throw RunError(fmt::format("log {}: the run of the bench does not reach the end of the log; run the bench to see why",
+                                 logs[l].name));
     if (logs[l].held_out) continue;
-    sum += bench[l].errors->mean(Logged::angle, &report::LogError::mae).value_or(0);
+    sum += bench[l].errors->mean(kind, &report::LogError::mae).value_or(0);
     ++count;
   }
   constexpr double kPart = 0.5;  // chosen: widths of 10 and 30 mrad end within 1 mrad of one another on 16 logs of an XL330
@@ -72,10 +74,10 @@ std::vector<std::string> sets_of(const Point& point, const std::vector<Key>& key
   return sets;
 }
 
-Scenario ErrorModels::scenario(const Question& question, std::size_t varied) const {
-  Point point = question.point;
-  if (varied < point.keys.size()) point.values[static_cast<Eigen::Index>(varied)] += step(question.point, varied);
-  return logs_[question.log].with->with(sets_of(point, keys_));
+Point ErrorModels::varied(const Point& point, std::size_t key) const {
+  Point other = point;
+  if (key < point.keys.size()) other.values[static_cast<Eigen::Index>(key)] += step(point, key);
+  return other;
 }
 
 void ErrorModels::run(std::size_t count, const std::function<Scenario(std::size_t)>& scenario,
@@ -97,7 +99,8 @@ void ErrorModels::run(std::size_t count, const std::function<Scenario(std::size_
                                    if (one.refused.empty()) end(one);
                                  }
                                }};
-  if (!run_pulled(stream, {threads_, 0}, Loads::left_out, stop_)) throw Stopped{};
+  constexpr std::size_t kLookAhead = 64;  // each waiting run holds the texts of its log
+  if (!run_pulled(stream, {threads_, 0}, Loads::left_out, stop_, kLookAhead)) throw Stopped{};
   runs_ += count;
 }
 
@@ -109,7 +112,8 @@ std::vector<Compared> ErrorModels::compared(const Point& point) {
     for (std::size_t k = 0; k < values.size(); ++k) most = std::max(most, std::abs(values[k]));
     return most;
   };
-  run(logs_.size(), [&](std::size_t l) { return logs_[l].with->with(sets_of(point, keys_)); },
+  run(
+      logs_.size(), [&](std::size_t l) { return logs_[l].with->with(sets_of(point, keys_)); },
       [&](const RolloutEnd& one) {
         if (!one.recording.outcome.done()) return;
         Compared& made = all[one.rollout.number];
@@ -131,8 +135,13 @@ std::vector<ErrorModel> ErrorModels::operator()(std::span<const Question> questi
     for (std::size_t k = 0; k <= questions[q].point.keys.size(); ++k) parts.push_back({q, questions[q].point.keys.size() - k});
   }
   std::vector<VectorXd> residual(parts.size());
-  run(parts.size(), [&](std::size_t i) { return scenario(questions[parts[i].question], parts[i].varied); },
-      [&](const RolloutEnd& one) { residual[one.rollout.number] = residuals(one.rollout.scenario, one.recording); });
+  run(
+      parts.size(),
+      [&](std::size_t i) {
+        const Question& of = questions[parts[i].question];
+        return logs_[of.log].with->with(sets_of(varied(of.point, parts[i].varied), keys_));
+      },
+      [&](const RolloutEnd& one) { residual[one.rollout.number] = residuals(one.rollout.scenario, one.recording, kind_); });
 
   std::vector<ErrorModel> answers;
   for (std::size_t first = 0, q = 0; q < questions.size(); ++q) {

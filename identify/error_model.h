@@ -55,19 +55,21 @@ struct Stopped {};
 /// Simulator of the logs of a bench at any point.
 class ErrorModels {
  public:
-  /// Compares the angles. b is half the mean magnitude of the differences at the values of the bench, over the fitted logs.
-  /// Logs and keys must outlive this object. Throws RunError if a run of the bench does not reach its end.
-  ErrorModels(const std::vector<BenchLog>& logs, const std::vector<Key>& keys, int threads, std::atomic<bool>& stop);
+  /// `kind` is the compared quantity. b is half the mean magnitude of the differences at the values of the bench, over the
+  /// fitted logs. Logs and keys must outlive this object. Throws RunError if a run of the bench does not reach its end.
+  ErrorModels(const std::vector<BenchLog>& logs, const std::vector<Key>& keys, Logged kind, int threads,
+              std::atomic<bool>& stop);
 
   /// Answers in the order of the questions. Each needs a run for the point and one for each of its keys, which share lanes. The
   /// answers do not depend on threads. Throws Stopped if `stop` was set.
   std::vector<ErrorModel> operator()(std::span<const Question> questions);
 
-  /// Differences of every log at a point, in the order of the logs, with further numbers than the angle.
+  /// Every log beside its run at a point, in the order of the logs.
   std::vector<Compared> compared(const Point& point);
 
   [[nodiscard]] const std::vector<Key>& keys() const { return keys_; }
   [[nodiscard]] const std::vector<BenchLog>& logs() const { return logs_; }
+  [[nodiscard]] Logged kind() const { return kind_; }
   [[nodiscard]] std::size_t runs() const { return runs_; }
   /// Unit in which a change of a key is counted: its start value, or a part of its range if that is 0.
   [[nodiscard]] double scale(std::size_t key) const;
@@ -75,15 +77,16 @@ class ErrorModels {
  private:
   void run(std::size_t count, const std::function<Scenario(std::size_t)>& scenario,
            const std::function<void(const RolloutEnd&)>& end);
-  [[nodiscard]] Scenario scenario(const Question& question, std::size_t varied) const;
+  [[nodiscard]] Point varied(const Point& point, std::size_t key) const;
   [[nodiscard]] double step(const Point& point, std::size_t varied) const;
 
   const std::vector<BenchLog>& logs_;
   const std::vector<Key>& keys_;
+  Logged kind_;
   int threads_;
   std::atomic<bool>& stop_;
   std::size_t runs_ = 0;
-  double width_ = 0;  ///< b, rad
+  double width_ = 0;  ///< b, in the unit of the quantity
 };
 
 /// The settings of a point in the form of --set.

@@ -12,11 +12,11 @@ namespace gaitlab::identify {
 
 namespace {
 
-constexpr double kTrade = 0.9;    // correlation; chosen
-constexpr double kWide = 0.5;     // half width of an interval as a share of the value; chosen
-constexpr double kShare = 0.1;    // of the time at the limit; the number
-constexpr double kFar = 2;        // times the median error of the logs; chosen
-constexpr double kReached = 0.98; // of a limit; chosen
+constexpr double kTrade = 0.9;     // correlation; chosen
+constexpr double kWide = 0.5;      // half width of an interval as a share of the value; chosen
+constexpr double kShare = 0.1;     // of the time at the limit; the number
+constexpr double kFar = 2;         // times the median error of the logs; chosen
+constexpr double kReached = 0.98;  // of a limit; chosen
 
 /// The measurement that tells two keys apart.
 struct Remedy {
@@ -76,6 +76,8 @@ class Findings {
   }
 
   void add_missing() {
+    if (std::ranges::none_of(logs_, &BenchLog::held_out))
+      add("no log is held out: the error is that of the logs from which the numbers were taken");
     if (!any_has(logs_, {Logged::duty, Logged::voltage, Logged::current, Logged::torque}) && fitted("actuator.stall_torque"))
       add("no log has a duty, a voltage, a current or a torque: stall_torque is right only as far as the controller's gain is, "
           "because their product moves the joint");
@@ -110,20 +112,22 @@ class Findings {
     const std::unique_ptr<Actuator> motors = make_motors(logs_[0].scenario);
     const DcMotor* const dc = motors == nullptr ? nullptr : motors->dc_motors();
     if (!fitted("actuator.i_max") || dc == nullptr) return;
-    const auto limit = std::ranges::find_if(made_.keys, [&](const IdentifiedKey& one) { return keys_[one.key].name == "actuator.i_max"; });
+    const auto limit =
+        std::ranges::find_if(made_.keys, [&](const IdentifiedKey& one) { return keys_[one.key].name == "actuator.i_max"; });
     const auto reached = [&](const Compared& run) { return run.largest_current >= kReached * limit->value; };
     if (std::ranges::none_of(made_.after, reached)) add("actuator.i_max: no log reaches it; its value is a lower bound");
   }
 
   void add_logs() {
     std::vector<double> errors;
-    for (const Compared& run : made_.after) errors.push_back(angle_error(run));
+    for (const Compared& run : made_.after) errors.push_back(error_of(run, made_.kind));
     std::vector<double> sorted = errors;
     const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
     std::ranges::nth_element(sorted, middle);
     for (std::size_t l = 0; l < logs_.size(); ++l) {
       if (errors[l] > kFar * *middle)
-        add("log {} is {:.1f} times as far off as the median log; look at it before the numbers are used", logs_[l].name, errors[l] / *middle);
+        add("log {} is {:.1f} times as far off as the median log; look at it before the numbers are used", logs_[l].name,
+            errors[l] / *middle);
       const report::LogErrors& of = *made_.after[l].errors;
       const auto simulated = of.mean(&report::JointLogErrors::at_limit);
       const auto measured = of.mean(&report::JointLogErrors::measured_at_limit);

@@ -13,15 +13,15 @@ struct Fit {
   Point at = {};                        ///< start, then the best point so far
   std::vector<std::size_t> logs = {};   ///< indices into the list of logs
   std::vector<ErrorModel> models = {};  ///< of these logs at `at`; empty if no run at the start was whole
-  double cost = 0;                 ///< mean of ErrorModel::cost over these logs, infinite if a run is not whole
+  double cost = 0;                      ///< mean of ErrorModel::cost over these logs, infinite if a run is not whole
   int rounds = 0;
   [[nodiscard]] double mae() const;  ///< mean over the logs
 };
 
 /// Minimises the cost of each fit by Levenberg and Marquardt's method within the ranges of the keys:
 /// J. J. More, The Levenberg-Marquardt algorithm: implementation and theory, 1978, with a key that leaves its range held at its
-/// bound. All fits take their steps together, so that their runs share lanes and threads; the result of a fit does not depend on
-/// the others. A fit ends if a step gains less than 1e-3 of the cost, or after 30 steps.
+/// bound. All fits take their steps together, so that their runs share lanes and threads; the result of a fit does not depend
+/// on the others. A fit ends if a step gains less than 1e-3 of the cost, or after 30 steps.
 void solve(std::span<Fit> fits, ErrorModels& models);
 
 /// The change of the keys that minimises the sum of the second-order models, in units of their scales; 0 for keys that are at a

@@ -10,8 +10,8 @@
 #include <numeric>
 
 #include "core/errors.h"
-#include "core/math/random.h"
 #include "core/math/functions.h"
+#include "core/math/random.h"
 
 namespace gaitlab::identify {
 
@@ -21,8 +21,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kWorth = 0.05;      // the number
-constexpr double kAgreement = 0.02;  // chosen
+constexpr double kWorth = 0.05;        // the number
+constexpr double kAgreement = 0.02;    // chosen
 constexpr std::size_t kMostFolds = 4;  // chosen: each fold is a fit
 
 std::vector<std::size_t> fitted_logs(const std::vector<BenchLog>& logs) {
@@ -33,11 +33,13 @@ std::vector<std::size_t> fitted_logs(const std::vector<BenchLog>& logs) {
   return fitted;
 }
 
-/// Fold of each fitted log: logs of a group are in the same fold.
+/// Fold of each fitted log: logs of a group are in the same fold. If there is only one group, each log counts as a group.
 std::vector<std::size_t> folds_of(const std::vector<BenchLog>& logs, const std::vector<std::size_t>& fitted) {
   std::map<std::string, std::size_t> groups;
   std::vector<std::size_t> folds;
-  for (const std::size_t i : fitted) folds.push_back(groups.try_emplace(logs[i].group, groups.size()).first->second % kMostFolds);
+  for (const std::size_t i : fitted) folds.push_back(groups.try_emplace(logs[i].group, groups.size()).first->second);
+  if (groups.size() == 1) std::iota(folds.begin(), folds.end(), std::size_t{0});
+  for (std::size_t& fold : folds) fold %= kMostFolds;
   return folds;
 }
 
@@ -110,15 +112,13 @@ std::optional<std::size_t> cheapest(const Fit& fit, const ErrorModels& models, c
 double rounded(double value, double half) {
   if (!(half > 0) || !std::isfinite(half)) return value;
   const double unit = math::exp(math::log(10.0) * std::floor(math::log(half / 10) / math::log(10.0)));
-  const double near = std::round(value / unit) * unit;
   constexpr double kDigits = 1e12;  // removes the rounding of `unit`
-  const double size = std::round(near * kDigits) / kDigits;
-  return size > 0 ? size : value;
+  return std::round(std::round(value / unit) * unit * kDigits) / kDigits;
 }
 
 /// Intervals by leaving out one log each (jackknife), on the second-order models: the change of the fit without log l is d_l,
-/// and the variance (n - 1) / n sum (d_l - mean)^2; B. Efron, C. Stein, The jackknife estimate of variance, 1981. Student's t has
-/// n - 1 degrees of freedom.
+/// and the variance (n - 1) / n sum (d_l - mean)^2; B. Efron, C. Stein, The jackknife estimate of variance, 1981. Student's t
+/// has n - 1 degrees of freedom.
 MatrixXd covariance(const Fit& fit, const ErrorModels& models) {
   const std::size_t n = fit.models.size();
   MatrixXd changes(fit.at.values.size(), static_cast<Index>(n));
@@ -131,84 +131,105 @@ MatrixXd covariance(const Fit& fit, const ErrorModels& models) {
   return changes * changes.transpose() * (static_cast<double>(n - 1) / static_cast<double>(n));
 }
 
+MatrixXd correlation_of(const MatrixXd& covariance) {
+  MatrixXd made = covariance;
+  for (Index i = 0; i < made.rows(); ++i) {
+    for (Index j = 0; j < made.cols(); ++j) {
+      const double size = std::sqrt(covariance(i, i) * covariance(j, j));
+      made(i, j) = size > 0 ? covariance(i, j) / size : 0;
+    }
+  }
+  return made;
+}
+
+/// Half width of the interval of 95 % of a jackknife over logs, in standard deviations.
+double student_quantile(std::size_t logs) {
+  return boost::math::quantile(boost::math::students_t(static_cast<double>(logs - 1)), 0.975);
+}
+
+/// Fits all keys from the values of the bench and from drawn ones.
+void fit_starts(Identified& made, ErrorModels& models, const IdentifySettings& settings) {
+  std::vector<Fit> fits;
+  for (std::size_t s = 0; s <= settings.drawn; ++s)
+    fits.push_back({start(models, s, settings.seed), fitted_logs(models.logs())});
+  solve(fits, models);
+  std::ranges::stable_sort(fits, {}, &Fit::cost);
+  made.best = fits[0];
+  made.starts = fits.size();
+  const double most = (1 + kAgreement) * std::sqrt(made.best.cost);
+  made.agreed =
+      static_cast<std::size_t>(std::ranges::count_if(fits, [&](const Fit& fit) { return std::sqrt(fit.cost) <= most; }));
+}
+
+/// Returns keys to the bench's values, the cheapest first, as long as that costs less than kWorth of the error of left-out
+/// logs. `worth` receives this share for each key that was tried.
+void choose_keys(Fit& best, std::vector<double>& worth, ErrorModels& models, const IdentifySettings& settings) {
+  settings.told("left-out logs with all keys");
+  std::vector<std::size_t> kept;  // keys that have earned their place
+  double error = left_out_error(models, best.at);
+  while (const auto position = cheapest(best, models, kept)) {
+    if (best.at.keys.size() == 1) return;
+    const std::size_t key = best.at.keys[*position];
+    settings.told("left-out logs without " + models.keys()[key].name);
+    const Point less = without(best.at, *position);
+    const double other = left_out_error(models, less);
+    worth[key] = other / error - 1;
+    if (worth[key] >= kWorth) {
+      kept.push_back(key);
+      continue;
+    }
+    error = other;
+    Fit again{less, best.logs};
+    solve({&again, 1}, models);
+    best = std::move(again);
+  }
+}
+
 }  // namespace
 
-std::optional<double> mean_error(const std::vector<BenchLog>& logs, const std::vector<Compared>& runs, bool held_out) {
+std::optional<double> mean_error(const std::vector<BenchLog>& logs, const std::vector<Compared>& runs, Logged kind,
+                                 bool held_out) {
   double sum = 0;
   std::size_t count = 0;
   for (std::size_t l = 0; l < logs.size(); ++l) {
     if (logs[l].held_out != held_out) continue;
-    sum += angle_error(runs[l]);
+    sum += error_of(runs[l], kind);
     ++count;
   }
   return count == 0 ? std::nullopt : std::optional(sum / static_cast<double>(count));
 }
 
-double angle_error(const Compared& run) { return run.errors->mean(Logged::angle, &report::LogError::mae).value_or(0); }
+double error_of(const Compared& run, Logged kind) { return run.errors->mean(kind, &report::LogError::mae).value_or(0); }
 
 Identified identify(ErrorModels& models, const IdentifySettings& settings) {
-  const std::vector<std::size_t> fitted = fitted_logs(models.logs());
+  const std::vector<Key>& keys = models.keys();
   Identified made;
-  made.starts = settings.drawn + 1;
-  std::vector<Fit> fits;
-  for (std::size_t s = 0; s < made.starts; ++s) fits.push_back({start(models, s, settings.seed), fitted});
+  made.kind = models.kind();
   settings.told("starts");
-  solve(fits, models);
-  std::ranges::stable_sort(fits, {}, &Fit::cost);
-  made.best = fits[0];
-  if (!std::isfinite(made.best.cost)) throw RunError("no run of the bench reaches its end; run the bench alone to see why");
-  made.agreed = static_cast<std::size_t>(std::ranges::count_if(
-      fits, [&](const Fit& fit) { return std::sqrt(fit.cost) <= (1 + kAgreement) * std::sqrt(made.best.cost); }));
-
-  std::vector<std::size_t> kept;  // keys that have earned their place
-  std::vector<double> worth(models.keys().size(), std::numeric_limits<double>::quiet_NaN());
-  if (settings.choose) {
-    settings.told("with all keys");
-    double error = left_out_error(models, made.best.at);
-    while (const auto position = cheapest(made.best, models, kept)) {
-      if (made.best.at.keys.size() == 1) break;
-      const std::size_t key = made.best.at.keys[*position];
-      settings.told("without " + models.keys()[key].name);
-      const Point less = without(made.best.at, *position);
-      const double other = left_out_error(models, less);
-      worth[key] = other / error - 1;
-      if (worth[key] >= kWorth) {
-        kept.push_back(key);
-        continue;
-      }
-      error = other;
-      Fit again{less, fitted};
-      solve({&again, 1}, models);
-      made.best = std::move(again);
-    }
-  }
-
+  fit_starts(made, models, settings);
+  std::vector<double> worth(keys.size(), std::numeric_limits<double>::quiet_NaN());
+  if (settings.choose) choose_keys(made.best, worth, models, settings);
   const MatrixXd spread = covariance(made.best, models);
-  made.correlation = spread;
-  const boost::math::students_t student(static_cast<double>(fitted.size() - 1));
-  const double quantile = boost::math::quantile(student, 0.975);
-  for (std::size_t k = 0; k < models.keys().size(); ++k) {
-    IdentifiedKey& one = made.keys.emplace_back(IdentifiedKey{k, false, models.keys()[k].start});
-    one.worth = worth[k];
+  const double quantile = student_quantile(made.best.logs.size());
+  for (std::size_t k = 0; k < keys.size(); ++k) {
+    IdentifiedKey& one = made.keys.emplace_back(IdentifiedKey{k, false, keys[k].start, 0, 0, worth[k]});
     const auto at = std::ranges::find(made.best.at.keys, k) - made.best.at.keys.begin();
     if (static_cast<std::size_t>(at) == made.best.at.keys.size()) continue;
     one.fitted = true;
     double& value = made.best.at.values[at];
     const double half = quantile * std::sqrt(spread(at, at)) * models.scale(k);
-    value = one.value = std::clamp(rounded(value, half), models.keys()[k].low, models.keys()[k].high);
-    one.low = std::max(value - half, models.keys()[k].low);
-    one.high = value + half;
-    for (Index other = 0; other < spread.cols(); ++other) {
-      const double size = std::sqrt(spread(at, at) * spread(other, other));
-      made.correlation(at, other) = size > 0 ? spread(at, other) / size : 0;
-    }
+    value = one.value = std::clamp(rounded(value, half), keys[k].low, keys[k].high);
+    one.low = std::max(rounded(value - half, half), keys[k].low);
+    one.high = rounded(value + half, half);
   }
+  made.correlation = correlation_of(spread);
 
   settings.told("all logs");
   made.before = models.compared(Point{});
   made.after = models.compared(made.best.at);
   for (std::size_t l = 0; l < made.after.size(); ++l) {
-    if (!made.after[l].errors) throw RunError(fmt::format("log {}: its run with the fitted values does not reach its end", models.logs()[l].name));
+    if (!made.after[l].errors)
+      throw RunError(fmt::format("log {}: its run with the fitted values does not reach its end", models.logs()[l].name));
   }
   made.runs = models.runs();
   return made;

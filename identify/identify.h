@@ -21,18 +21,20 @@ struct IdentifiedKey {
 };
 
 struct Identified {
-  Fit best;                            ///< values rounded to their intervals
-  std::size_t starts = 0, agreed = 0;  ///< starts, and those that ended within 2 % of the best error
-  std::vector<IdentifiedKey> keys;     ///< all keys
-  Eigen::MatrixXd correlation;         ///< of the fitted keys, in the order of Fit::at
-  std::vector<Compared> before, after; ///< every log by the bench, and by the fit
+  Fit best;                             ///< values rounded to their intervals
+  std::size_t starts = 0, agreed = 0;   ///< starts, and those that ended within 2 % of the best error
+  std::vector<IdentifiedKey> keys;      ///< all keys
+  Eigen::MatrixXd correlation;          ///< of the fitted keys, in the order of Fit::at
+  std::vector<Compared> before, after;  ///< every log by the bench, and by the fit
+  Logged kind = Logged::angle;          ///< the compared quantity
   std::size_t runs = 0;
 };
 
-/// Mean magnitude of the differences of the angles of a run from its log, rad.
-double angle_error(const Compared& run);
+/// Mean magnitude of the differences of a run from its log, in the unit of the quantity.
+double error_of(const Compared& run, Logged kind);
 /// Mean of it over the logs that are held out, or over the others; nothing without such logs.
-std::optional<double> mean_error(const std::vector<BenchLog>& logs, const std::vector<Compared>& runs, bool held_out);
+std::optional<double> mean_error(const std::vector<BenchLog>& logs, const std::vector<Compared>& runs, Logged kind,
+                                 bool held_out);
 
 struct IdentifySettings {
   std::int64_t seed = 1;
@@ -42,7 +44,8 @@ struct IdentifySettings {
 };
 
 /// Fits all keys from several starts, drops each key that earns less than 5 % of the error of left-out logs, and fits the rest
-/// again. Held-out logs are used only for their numbers at the end. Throws RunError if no start gives whole runs.
+/// again. Held-out logs are used only for their numbers at the end. Throws RunError if a run with the fitted values does not
+/// reach its end.
 Identified identify(ErrorModels& models, const IdentifySettings& settings);
 
 }  // namespace gaitlab::identify

@@ -9,6 +9,7 @@
 
 #include "core/laws/dc_motor.h"
 #include "core/scenario/built_robot.h"
+#include "core/scenario/sections.h"
 #include "core/settings/settings_numbers.h"
 #include "core/settings/value.h"
 #include "core/settings/wording.h"
@@ -18,8 +19,8 @@ namespace gaitlab::identify {
 namespace {
 
 constexpr double kSpread = 20;  // chosen: data sheets are wrong by factors, not by orders of magnitude
-constexpr const char* kUsual[] = {"actuator.stall_torque",     "actuator.no_load_speed", "actuator.rotor_inertia",
-                                  "actuator.dry_friction",     "actuator.viscous_friction", "actuator.load_friction",
+constexpr const char* kUsual[] = {"actuator.stall_torque", "actuator.no_load_speed",    "actuator.rotor_inertia",
+                                  "actuator.dry_friction", "actuator.viscous_friction", "actuator.load_friction",
                                   "controller.latency"};
 
 struct Number {
@@ -32,7 +33,8 @@ std::vector<std::pair<std::string, Number>> numbers_of(const Scenario& bench) {
   std::vector<std::pair<std::string, Number>> all;
   const auto add = [&](const std::string& section, const PluginSelection& plugin) {
     const SettingsNumbers numbers(plugin);
-    for (const SettingsNumbers::Found& one : numbers.all()) all.emplace_back(section + "." + one.key, Number{one.unit, one.value});
+    for (const SettingsNumbers::Found& one : numbers.all())
+      all.emplace_back(section + "." + one.key, Number{one.unit, one.value});
   };
   add("actuator", bench.actuator);
   add("controller", bench.controller);
@@ -69,9 +71,13 @@ std::vector<Key> fitted_keys(const Scenario& bench, const std::vector<std::strin
   for (const std::string& text : wanted) {
     const std::size_t equals = text.find('=');
     const std::string name = text.substr(0, equals);
-    const auto at = std::ranges::find(known, name, [](const auto& one) { return one.first; });
+    // The key is a number of a plugin, or KEY.JOINT for its value at one joint.
+    const std::vector<std::string> joints = joint_names(*bench.robot);
+    const auto of_joint = std::ranges::find_if(joints, [&](const std::string& joint) { return name.ends_with("." + joint); });
+    const std::string common = of_joint == joints.end() ? name : name.substr(0, name.size() - of_joint->size() - 1);
+    const auto at = std::ranges::find(known, common, [](const auto& one) { return one.first; });
     if (at == known.end()) {
-      problems.add(option, fmt::format("{} is no number of the bench's actuator, controller or sensors{}", in_quotes(name),
+      problems.add(option, fmt::format("{} is not a number of the bench's actuator, controller or sensors{}", in_quotes(name),
                                        offer(name, names, "keys")));
       continue;
     }
@@ -80,11 +86,14 @@ std::vector<Key> fitted_keys(const Scenario& bench, const std::vector<std::strin
       continue;
     }
     const PerJoint& value = at->second.value;
-    if (std::ranges::any_of(value.each, [&](double one) { return one != value.each.front(); })) {
-      problems.add(option, fmt::format("{} differs between the joints of the bench; expected one value for all", name));
+    const auto differs = [&](double one) { return one != value.each.front(); };
+    if (of_joint == joints.end() && std::ranges::any_of(value.each, differs)) {
+      problems.add(option, fmt::format("{0} differs between the joints of the bench; expected one joint, such as {0}.{1}", name,
+                                       joints[0]));
       continue;
     }
-    Key key{name, at->second.unit, value[0], value[0] / kSpread, value[0] * kSpread};
+    const double start = value[of_joint == joints.end() ? 0 : static_cast<std::size_t>(of_joint - joints.begin())];
+    Key key{name, at->second.unit, start, start / kSpread, start * kSpread};
     if (name == "actuator.i_max" && key.start == 0 && bench.actuator.entry != nullptr) {
       const std::unique_ptr<Actuator> motors = make_motors(bench);
       key.start = motors->dc_motors()[0].i_max;
@@ -101,7 +110,7 @@ std::vector<Key> fitted_keys(const Scenario& bench, const std::vector<std::strin
       std::tie(key.low, key.high) = *range;
       key.start = std::clamp(key.start, key.low, key.high);
     } else if (!(key.start > 0)) {
-      // Zero says nothing of the size of a usual value; a key that nobody asked for then stays as it is.
+      // From 0 the size of a usual value does not follow. A key that --fit does not name then keeps this value.
       if (!asked.empty())
         problems.add(option, fmt::format("{} is {} in the bench; expected a range, as in --fit {}=LOW:HIGH", name,
                                          number_text(key.start), name));

@@ -55,6 +55,12 @@ Section section_of(const Node& bench, const std::string& name, const Identified&
 
 }  // namespace
 
+std::string error_text(double error, Logged kind) {
+  constexpr double kMilli = 1e-3;
+  if (kind == Logged::angle) return fmt::format("{:.3g} mrad", error / kMilli);
+  return fmt::format("{:.3g} {}", error, logged_kinds()[static_cast<std::size_t>(kind)].unit);
+}
+
 std::string source_text(const Identified& made, const std::vector<BenchLog>& logs) {
   std::string hashes;
   double fastest = 0;
@@ -65,10 +71,11 @@ std::string source_text(const Identified& made, const std::vector<BenchLog>& log
     hashes += logs[l].hash;
     fastest = std::max(fastest, made.after[l].largest_speed);
   }
-  std::string text = fmt::format("identified from {} (hash {}), fitted to {:.3g} mrad, speeds up to {:.3g} rad/s", counted(fitted, "log"),
-                                 hash(hashes), 1e3 * mean_error(logs, made.after, false).value_or(0), fastest);
-  if (const auto held_out = mean_error(logs, made.after, true))
-    text += fmt::format("; held-out error {:.3g} mrad on {}", 1e3 * *held_out, counted(logs.size() - fitted, "log"));
+  std::string text =
+      fmt::format("identified from {} (hash {}), fitted to {}, speeds up to {:.3g} rad/s", counted(fitted, "log"), hash(hashes),
+                  error_text(mean_error(logs, made.after, made.kind, false).value_or(0), made.kind), fastest);
+  if (const auto held_out = mean_error(logs, made.after, made.kind, true))
+    text += fmt::format("; held-out error {} on {}", error_text(*held_out, made.kind), counted(logs.size() - fitted, "log"));
   return text;
 }
 
@@ -88,10 +95,12 @@ std::string servo_text(const std::string& name, const std::string& file, const s
   std::vector<std::string> stated = actuator.stated;
   stated.insert(stated.end(), controller.stated.begin(), controller.stated.end());
   std::string text = fmt::format("gaitlab_servo: 1\nname: {}\nsources:\n", yaml_text(name));
-  text += fmt::format("  - {{of: [{}], kind: identified, text: {}}}\n", fmt::join(fitted, ", "), yaml_text(source_text(made, logs)));
+  text += fmt::format("  - {{of: [{}], kind: identified, text: {}}}\n", fmt::join(fitted, ", "),
+                      yaml_text(source_text(made, logs)));
   if (!stated.empty())
-    text += fmt::format("  - {{of: [{}], kind: chosen, text: {}}}\n", fmt::join(stated, ", "),
-                        yaml_text(logs[0].scenario.actuator_source.empty() ? "stated in the bench" : logs[0].scenario.actuator_source));
+    text += fmt::format(
+        "  - {{of: [{}], kind: chosen, text: {}}}\n", fmt::join(stated, ", "),
+        yaml_text(logs[0].scenario.actuator_source.empty() ? "stated in the bench" : logs[0].scenario.actuator_source));
   text += "actuator:\n" + print_yaml(actuator.map, 2);
   if (controller.map.items.size() > 1) text += "controller:\n" + print_yaml(controller.map, 2);
   return text;

@@ -7,6 +7,9 @@
 
 namespace gaitlab::identify {
 
+/// Error of a quantity with its unit; of an angle in mrad.
+std::string error_text(double error, Logged kind);
+
 /// Sentence on the origin of the fitted values: logs, their hash, errors, and the range of speeds that the logs cover.
 std::string source_text(const Identified& made, const std::vector<BenchLog>& logs);
 

@@ -1,4 +1,4 @@
-// Templates of a module and of a scenario, and the function that fills templates.
+// Templates of a module, of a scenario and of a bench, and the function that fills templates.
 #include "app/new/skeletons.h"
 
 namespace gaitlab::app {
@@ -79,6 +79,46 @@ physics:
   phase_lag: 1             # rad from joint to joint; negative: the wave runs the other way
 
 duration: @DURATION@                # s: a period to start, and three that are judged
+)";
+
+const char* const kSkeletonBench =
+    R"(# Bench @NAME@: a servo moves an arm with a mass. Its numbers follow from logs: gaitlab identify @FILE@ LOG.csv LOG.csv ...
+# Every key: gaitlab explain. Units: m, kg, N m, rad, s, V, A.
+gaitlab: 1
+name: @TEXT@
+
+robot:
+  base: fixed
+  position: [0, 0, 1]
+  modules:
+    gaitlab_module: 1
+    name: bench
+    bodies:
+      stand: {mass: 1, inertia: [1, 1, 1, 0, 0, 0]}
+      arm:                             # all that turns, without the servo's own gear
+        mass: @MASS@                      # kg
+        com: [0, 0, -@LENGTH@]              # distance of its centre from the axis; at angle 0 it hangs down
+        inertia: [@INERTIA@, @INERTIA@, @INERTIA@, 0, 0, 0]   # about its centre; of a ball with a third of the length as radius
+    hinges: [{name: hinge, parent: stand, child: arm, axis: [0, 1, 0], range: free}]
+
+ground: {type: none}
+contact: {"on": none}
+physics: {engine: articulated, estimate: off}
+
+actuator: @ACTUATOR@   # u_max: the supply, V
+controller: @CONTROLLER@   # a column controller.P in a table of logs has the gain of each log
+
+# The goals are replayed, and the angles compared. `identify` puts each log in place of log.csv.
+cpg: {type: table, model: {file: log.csv, time: t, columns: [{joint: 0, column: goal}], interpolation: linear, repeat: false}}
+measured:
+  file: log.csv
+  time: t                              # s
+  # "on": on                           # column that is 0 while the servo has no torque
+  columns:
+    m0/hinge: {angle: angle}           # rad, in the direction of the goals; also speed, duty, voltage, current, torque
+
+trace: {period: 0.002, columns: [t, joint.*]}
+duration: 10                           # s; identify takes the length of each log
 )";
 
 }  // namespace gaitlab::app

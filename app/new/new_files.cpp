@@ -1,4 +1,5 @@
-// The commands `gaitlab new module` and `gaitlab new scenario`, which write a file that is valid as it stands.
+// The commands `gaitlab new module` and `gaitlab new scenario`, which write a file that is valid as it stands, and `gaitlab new
+// bench`, whose logs are still to be recorded.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,6 +13,7 @@
 #include "app/new/skeletons.h"
 #include "app/shell/commands.h"
 #include "app/shell/shell_word.h"
+#include "core/robot_files/servo_file.h"
 #include "core/robot_files/type_library.h"
 #include "core/scenario/read_scenario.h"
 #include "core/settings/shipped_files.h"
@@ -32,6 +34,8 @@ struct NewFileArguments {
   std::optional<std::string> from;  ///< URDF file; only for modules
   std::string module = "y1";        ///< name of a shipped module type, or a file; only for scenarios
   std::optional<int> count = {};    ///< number of modules in the row; only for scenarios
+  std::string servo;                ///< name or file of a servo; only for benches
+  double mass = 0.3, length = 0.1;  ///< of the arm, kg and m; only for benches
 };
 
 /// Checks the name of a module or scenario, which becomes the name of its file.
@@ -247,6 +251,48 @@ int new_scenario(const NewFileArguments& arguments) {
   return 0;
 }
 
+/// True if the servo file of that name has the section.
+bool has_section(const NewFileArguments& arguments, const char* section, bool needed) {
+  Problems problems;
+  std::vector<Problem> notes;
+  Node document = parse_yaml(fmt::format("{}: {{model: {}}}\n", section, yaml_text(arguments.servo)), "--servo");
+  insert_servos(document, folder_of(arguments).string(), problems, notes);
+  if (needed) problems.raise();
+  return problems.empty();
+}
+
+int new_bench(const NewFileArguments& arguments) {
+  check_file_name("bench", arguments.name);
+  const std::string servo = yaml_text(arguments.servo);
+  std::string actuator = "{type: servo, voltage: 6, stall_torque: 1, no_load_speed: 6, u_max: 6}";
+  std::string controller = "{type: rc_servo, period: 0.001}";
+  if (!arguments.servo.empty()) {
+    has_section(arguments, "actuator", true);
+    actuator = fmt::format("{{model: {}, u_max: 0}}", servo);
+    if (has_section(arguments, "controller", false))
+      controller = fmt::format("{{type: rc_servo, model: {}, period: 0.001}}", servo);
+  }
+  const double radius = arguments.length / 3;
+  const double inertia = 0.4 * arguments.mass * radius * radius;  // of a ball
+  const std::pair<const char*, std::string> values[] = {
+      {"@NAME@", arguments.name},
+      {"@TEXT@", yaml_text(arguments.name)},
+      {"@FILE@", one_line(shell_word(arguments.out.value_or(arguments.name + ".yaml")))},
+      {"@MASS@", number_text(arguments.mass)},
+      {"@LENGTH@", number_text(arguments.length)},
+      {"@INERTIA@", fmt::format("{:.3g}", inertia)},
+      {"@ACTUATOR@", actuator},
+      {"@CONTROLLER@", controller}};
+  std::string text = kSkeletonBench;
+  for (const auto& [mark, value] : values) text = filled(text, mark, value);
+  const std::string file = shell_word(write_new(arguments, text));
+  fmt::print(
+      "{0}: a mass on the arm of a servo; state the supply and the columns of your logs in it; next:\n  gaitlab identify {0} "
+      "LOG.csv LOG.csv ... --to servo.yaml\n",
+      file);
+  return 0;
+}
+
 void add_out(CLI::App& command, NewFileArguments& arguments) {
   command.add_option("--out", arguments.out, "file to write (default: NAME.yaml); must not exist")->check(not_empty);
 }
@@ -274,6 +320,19 @@ void add_new_files(Commands& commands, CLI::App& command) {
                         "number of modules in the row (default: up to 4, as many as the motors carry)")
             ->check(CLI::Range(1, 1000));
         add_out(scenario, arguments);
+      },
+      &command);
+  add_command<NewFileArguments>(
+      commands, "bench", "Write a scenario of a servo that moves an arm, for logs and `gaitlab identify`.", new_bench,
+      [](CLI::App& bench, NewFileArguments& arguments) {
+        constexpr double kMost = 1e3;
+        bench.add_option("NAME", arguments.name, "name of the bench")->required();
+        offering(bench.add_option("--servo", arguments.servo), "name that {} prints, or a servo file", {.kinds = {"servo"}})
+            ->check(not_empty);
+        bench.add_option("--mass", arguments.mass, "mass of the arm, kg (default 0.3)")->check(CLI::Range(1e-6, kMost));
+        bench.add_option("--length", arguments.length, "distance of its centre from the axis, m (default 0.1)")
+            ->check(CLI::Range(1e-6, kMost));
+        add_out(bench, arguments);
       },
       &command);
 }

@@ -21,6 +21,7 @@ extern const char* const kSkeletonTest;   ///< content of test.cmake; @TEST@ is 
 
 extern const char* const kSkeletonModule;    ///< content of a module file
 extern const char* const kSkeletonScenario;  ///< content of a scenario of equal modules
+extern const char* const kSkeletonBench;     ///< content of the bench of a servo
 
 /// The text with every occurrence of `mark` replaced by `value`.
 std::string filled(std::string text, const std::string& mark, const std::string& value);

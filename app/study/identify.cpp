@@ -32,22 +32,23 @@ struct IdentifyArguments {
   std::string file;
   std::vector<std::string> logs, sets, fit, held_out;
   double share = 0.25;
+  std::string quantity = "angle";
   std::string to;
   std::int64_t seed = 1;
   int jobs = 1;
   bool quiet = false;
 };
 
-std::string mrad(double angle) { return fmt::format("{:.3g}", 1e3 * angle); }
-
 std::string table_of_errors(const Identified& made, const std::vector<BenchLog>& logs) {
-  std::vector<Cells> rows{{"error of the angle, mrad", "logs", "bench", "identified"}};
+  std::vector<Cells> rows{
+      {fmt::format("error of the {}", logged_kinds()[static_cast<std::size_t>(made.kind)].key), "logs", "bench", "identified"}};
   for (const bool held_out : {false, true}) {
-    const auto before = identify::mean_error(logs, made.before, held_out);
+    const auto before = identify::mean_error(logs, made.before, made.kind, held_out);
     if (!before) continue;
     rows.push_back({held_out ? "held-out logs" : "fitted logs",
-                    std::to_string(std::ranges::count(logs, held_out, &BenchLog::held_out)), mrad(*before),
-                    mrad(*identify::mean_error(logs, made.after, held_out))});
+                    std::to_string(std::ranges::count(logs, held_out, &BenchLog::held_out)),
+                    identify::error_text(*before, made.kind),
+                    identify::error_text(*identify::mean_error(logs, made.after, made.kind, held_out), made.kind)});
   }
   return cells_text(rows);
 }
@@ -58,8 +59,8 @@ std::string table_of_keys(const Identified& made, const std::vector<Key>& keys) 
     const Key& key = keys[one.key];
     const std::string worth = std::isfinite(one.worth) ? fmt::format("{:+.0f} %", 100 * one.worth) : "-";
     rows.push_back({key.name, one.fitted ? number_text(one.value) : "as in the bench",
-                    one.fitted ? fmt::format("{:.3g} to {:.3g}", one.low, one.high) : "-", key.unit, fmt::format("{:.4g}", key.start),
-                    worth});
+                    one.fitted ? number_text(one.low) + " to " + number_text(one.high) : "-", key.unit,
+                    fmt::format("{:.4g}", key.start), worth});
   }
   return cells_text(rows);
 }
@@ -68,13 +69,15 @@ std::string table_of_keys(const Identified& made, const std::vector<Key>& keys) 
 std::string table_of_logs(const Identified& made, const std::vector<BenchLog>& logs) {
   std::vector<std::size_t> order(logs.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::stable_sort(order, std::greater<>(), [&](std::size_t l) { return identify::angle_error(made.after[l]); });
-  std::vector<Cells> rows{{"log", "", "bench, mrad", "identified", "at the limit", "in the log"}};
+  std::ranges::stable_sort(order, std::greater<>(),
+                           [&](std::size_t l) { return identify::error_of(made.after[l], made.kind); });
+  std::vector<Cells> rows{{"log", "", "bench", "identified", "at the limit", "in the log"}};
+  const auto text = [&](const Compared& run) { return identify::error_text(identify::error_of(run, made.kind), made.kind); };
   const auto share = [](const std::optional<double>& one) { return one ? fmt::format("{:.2f}", *one) : "-"; };
   for (const std::size_t l : order) {
     const report::LogErrors& errors = *made.after[l].errors;
-    rows.push_back({logs[l].name, logs[l].held_out ? "held out" : "", mrad(identify::angle_error(made.before[l])),
-                    mrad(identify::angle_error(made.after[l])), share(errors.mean(&report::JointLogErrors::at_limit)),
+    rows.push_back({logs[l].name, logs[l].held_out ? "held out" : "", text(made.before[l]), text(made.after[l]),
+                    share(errors.mean(&report::JointLogErrors::at_limit)),
                     share(errors.mean(&report::JointLogErrors::measured_at_limit))});
   }
   return cells_text(rows);
@@ -87,11 +90,12 @@ int identify_servo(const IdentifyArguments& a) {
   identify::check_logs(logs);
   identify::hold_out(logs, a.held_out, a.share, a.seed);
   const std::vector<Key> keys = identify::fitted_keys(logs[0].scenario, a.fit);
-  identify::check_peaks(logs, keys.size());
+  const Logged kind = std::ranges::find(logged_kinds(), a.quantity, &LoggedKind::key)->kind;
+  identify::check_peaks(logs, kind, keys.size());
   const StopOnSignal stop(StopOnSignal::Second::ends_the_process);
   Identified made;
   try {
-    identify::ErrorModels models(logs, keys, a.jobs, stopped());
+    identify::ErrorModels models(logs, keys, kind, a.jobs, stopped());
     identify::IdentifySettings settings{.seed = a.seed, .choose = a.fit.empty()};
     settings.told = [&](const std::string& stage) {
       if (!a.quiet) say(fmt::format("{} runs; {}\n", models.runs(), stage));
@@ -105,8 +109,8 @@ int identify_servo(const IdentifyArguments& a) {
   const std::string servo = identify::servo_text(name, a.file, a.sets, made, logs, keys);
   if (!a.to.empty()) write_file(a.to, servo, Existing::refused);
   if (a.quiet) return 0;
-  std::string text = fmt::format("{}; {} of {} starts end within 2 % of the best\n\n{}\n{}\n", counted(made.runs, "run"), made.agreed,
-                                 made.starts, table_of_errors(made, logs), table_of_keys(made, keys));
+  std::string text = fmt::format("{}; {} of {} starts end within 2 % of the best\n\n{}\n{}\n", counted(made.runs, "run"),
+                                 made.agreed, made.starts, table_of_errors(made, logs), table_of_keys(made, keys));
   if (const auto limits = identify::findings(made, logs, keys); !limits.empty()) {
     text += "limits of these logs\n";
     for (const std::string& one : limits) text += "  " + wrapped(one, 4, 98).substr(2);
@@ -120,24 +124,30 @@ int identify_servo(const IdentifyArguments& a) {
 
 void add_identify(Commands& commands) {
   add_command<IdentifyArguments>(
-      commands, "identify", "Fit the numbers of a servo to logs of a bench, with intervals and the error on logs held out.", identify_servo,
-      [](CLI::App& command, IdentifyArguments& a) {
+      commands, "identify", "Fit the numbers of a servo to logs of a bench, with intervals and the error on logs held out.",
+      identify_servo, [](CLI::App& command, IdentifyArguments& a) {
         command.add_option("BENCH", a.file, "scenario with a section `measured`, whose log each of the logs replaces")
             ->required()
             ->transform(named_file);
-        command.add_option("LOGS", a.logs, "logs (CSV), or tables of logs: a column `file`, `group`, and settings with a value per log")
+        command
+            .add_option("LOGS", a.logs,
+                        "logs (CSV), or tables of logs: a column `file`, `group`, and settings with a value per log")
             ->required();
         command.add_option("--set", a.sets, "setting KEY=VALUE of all logs")->allow_extra_args(false);
         command
-            .add_option("--fit", a.fit,
-                        "fit this key, KEY or KEY=LOW:HIGH, once per key; without it, the usual keys, of which those stay that earn "
-                        "5 % of the error of left-out logs")
+            .add_option(
+                "--fit", a.fit,
+                "fit this key, KEY or KEY=LOW:HIGH, once per key; without it, the usual keys, of which those stay that earn "
+                "5 % of the error of left-out logs")
             ->allow_extra_args(false);
         command
-            .add_option("--hold-out", a.held_out, "logs for the held-out error alone, by a pattern of their names; once per pattern")
+            .add_option("--hold-out", a.held_out,
+                        "logs for the held-out error alone, by a pattern of their names; once per pattern")
             ->allow_extra_args(false);
         command.add_option("--share", a.share, "share of the groups to hold out without --hold-out (default 0.25)")
             ->check(CLI::Range(0.0, 1.0));
+        command.add_option("--of", a.quantity, "compared quantity (default angle)")
+            ->check(CLI::IsMember({"angle", "speed", "voltage", "current", "torque"}));
         command.add_option("--to", a.to, "write the servo to this new file");
         command.add_option("--seed", a.seed, "seed of drawn starts and of the logs held out (default 1)");
         command.add_option("-j,--jobs", a.jobs, "threads (default 1)")->check(CLI::Range(1, kMostThreads));

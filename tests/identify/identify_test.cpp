@@ -1,0 +1,186 @@
+// Tests of the identification of servos: numbers of a known servo found again in its own logs, the same bits for any number of
+// threads, intervals, logs held out, the servo file, and refused logs.
+#include "identify/identify.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "identify/findings.h"
+#include "identify/servo_text.h"
+#include "tests/program/fixture.h"
+
+namespace gaitlab::test {
+namespace {
+
+using namespace identify;
+
+constexpr double kTorque = 1.5;  // of the servo that makes the logs, N m
+constexpr double kDry = 0.08;
+
+/// A mass on an arm, and logs of it that the program makes itself.
+class Bench : public ::testing::Test {
+ protected:
+  Bench() {
+    folder_.write("lever.yaml",
+                  "gaitlab_module: 1\nname: lever\nbodies:\n  base: {mass: 1, inertia: [1, 1, 1, 0, 0, 0]}\n"
+                  "  arm: {mass: 0.5, com: [0, 0, -0.15], inertia: [1e-4, 1e-4, 1e-4, 0, 0, 0]}\n"
+                  "hinges: [{name: hinge, parent: base, child: arm, axis: [0, 1, 0], range: free}]\n");
+  }
+  static std::string text(double torque, double dry) {
+    return fmt::format(
+        "gaitlab: 1\nrobot: {{modules: ./lever.yaml, base: fixed, position: [0, 0, 1]}}\nground: {{type: none}}\n"
+        "contact: {{\"on\": none}}\nphysics: {{engine: articulated, estimate: off}}\nduration: 2\n"
+        "actuator: {{type: servo, voltage: 6, stall_torque: {}, no_load_speed: 6, dry_friction: {}}}\n"
+        "controller: {{type: rc_servo, gain: 2, period: 0.005}}\n",
+        torque, dry);
+  }
+  /// Set points of a log, which is longer than the change of a sign of its speed.
+  static double goal(double t, double rate) { return 0.9 * std::sin(rate * t); }
+  void write_log(const std::string& name, double rate, double gain, double unit = 1) {
+    std::string table = "t,goal\n";
+    for (int k = 0; k <= 200; ++k) table += fmt::format("{},{}\n", 0.01 * k, goal(0.01 * k, rate));
+    folder_.write("goal.csv", table);
+    const Scenario servo =
+        read_scenario(folder_.write("true.yaml", text(kTorque, kDry) +
+                                                     "cpg: {type: table, model: {file: goal.csv, time: t, columns: [{joint: 0, "
+                                                     "column: goal}], interpolation: linear, repeat: false}}\n"),
+                      {"trace.period=0.01", fmt::format("controller.gain={}", gain)}, catalog());
+    const Recording r = run(servo);
+    const Table trace(r.trace);
+    std::string log = "t,goal,angle\n";
+    constexpr double kTick = 2 * std::numbers::pi / 4096;  // an encoder of 12 bits
+    for (std::size_t k = 0; k < r.trace.rows(); ++k) {
+      const double angle = kTick * std::round(trace.at(k, "joint.0.angle") / kTick);
+      log += fmt::format("{},{},{}\n", r.trace.at(k, 0), goal(r.trace.at(k, 0), rate), unit * angle);
+    }
+    folder_.write(name, log);
+  }
+  void write_bench(double torque = 1.2, double dry = 0.05, const std::string& columns = "angle: angle") {
+    folder_.write("bench.yaml",
+                  text(torque, dry) +
+                      "cpg: {type: table, model: {file: log.csv, time: t, columns: [{joint: 0, column: goal}], interpolation: "
+                      "linear, repeat: false}}\nmeasured: {file: log.csv, columns: {m0/hinge: {" +
+                      columns + "}}}\n");
+  }
+  std::vector<BenchLog> bench(const std::vector<std::string>& logs) {
+    std::vector<std::string> files;
+    for (const std::string& log : logs) files.push_back(folder_ / log);
+    return read_bench(folder_ / "bench.yaml", {}, files, catalog());
+  }
+  Identified identified(const std::vector<BenchLog>& logs, const std::vector<Key>& keys, int threads = 1) {
+    std::atomic<bool> stop = false;
+    ErrorModels models(logs, keys, Logged::angle, threads, stop);
+    return identify::identify(models, {.seed = 1, .choose = false, .drawn = 1});
+  }
+  void expect_refused(const std::function<void()>& work, const std::string& part) {
+    try {
+      work();
+      ADD_FAILURE() << "nothing is refused; expected " << part;
+    } catch (const InputError& error) {
+      EXPECT_TRUE(contains(error.what(), part)) << error.what();
+    }
+  }
+  Folder folder_;
+};
+
+TEST_F(Bench, FindsTheNumbersOfItsOwnLogs) {
+  write_log("slow.csv", 2, 2);
+  write_log("fast.csv", 5, 2);
+  write_log("stiff.csv", 4, 4);
+  folder_.write("logs.csv", "file,controller.gain\nslow.csv,2\nfast.csv,2\nstiff.csv,4\n");
+  write_bench();
+  std::vector<BenchLog> logs = bench({"logs.csv"});
+  ASSERT_EQ(logs.size(), 3U);
+  EXPECT_EQ(logs[0].group, logs[1].group);
+  EXPECT_NE(logs[0].group, logs[2].group);
+  EXPECT_NEAR(logs[0].scenario.duration, 2, 1e-9);
+  check_logs(logs);
+  hold_out(logs, {"stiff"}, 0, 1);
+  const std::vector<Key> keys = fitted_keys(logs[0].scenario, {"actuator.stall_torque", "actuator.dry_friction"});
+  const Identified made = identified(logs, keys);
+  // An encoder of 12 bits, and two logs: the intervals have a single degree of freedom.
+  EXPECT_NEAR(made.keys[0].value, kTorque, 0.005 * kTorque);
+  EXPECT_NEAR(made.keys[1].value, kDry, 0.02 * kDry);
+  EXPECT_LT(made.keys[0].low, made.keys[0].value);
+  EXPECT_GT(made.keys[0].high, made.keys[0].value);
+  EXPECT_LT(*mean_error(logs, made.after, Logged::angle, true), 0.1 * *mean_error(logs, made.before, Logged::angle, true));
+
+  const Identified again = identified(logs, keys, 2);
+  const auto servo = [&](const Identified& one) { return servo_text("own", folder_ / "bench.yaml", {}, one, logs, keys); };
+  EXPECT_EQ(servo(again), servo(made));
+  EXPECT_EQ(again.best.cost, made.best.cost);
+
+  // The servo file is one: the bench with it gives the angles of the fit.
+  folder_.write("own.yaml", servo(made));
+  std::string text = read(folder_ / "bench.yaml");
+  const std::size_t at = text.find("actuator: ");
+  text.replace(at, text.find('\n', at) - at, "actuator: {type: servo, model: own.yaml}");
+  folder_.write("bench.yaml", text);
+  const std::vector<BenchLog> with = bench({"logs.csv"});
+  std::atomic<bool> stop = false;
+  EXPECT_EQ(error_of(ErrorModels(with, keys, Logged::angle, 1, stop).compared({})[0], Logged::angle),
+            error_of(made.after[0], Logged::angle));
+
+  // No log has a duty or a current, and none swings freely.
+  const std::vector<std::string> limits = findings(made, logs, keys);
+  ASSERT_FALSE(limits.empty());
+  EXPECT_TRUE(contains(limits[0], "no log has a duty")) << limits[0];
+}
+
+TEST_F(Bench, AKeyThatEarnsNothingStays) {
+  write_log("slow.csv", 2, 2);
+  write_log("fast.csv", 5, 2);
+  write_bench(1.2, kDry);  // the dry friction of the bench is right
+  std::vector<BenchLog> logs = bench({"slow.csv", "fast.csv"});
+  hold_out(logs, {}, 0, 1);
+  std::vector<Key> keys = fitted_keys(logs[0].scenario, {"actuator.stall_torque", "actuator.dry_friction"});
+  std::atomic<bool> stop = false;
+  ErrorModels models(logs, keys, Logged::angle, 1, stop);
+  const Identified made = identify::identify(models, {.seed = 1, .choose = true, .drawn = 0});
+  EXPECT_TRUE(made.keys[0].fitted);
+  EXPECT_NEAR(made.keys[0].value, kTorque, 0.005 * kTorque);
+  EXPECT_FALSE(made.keys[1].fitted);
+  EXPECT_EQ(made.keys[1].value, kDry);
+}
+
+TEST_F(Bench, RefusesLogsThatNoServoRecorded) {
+  const auto refused = [&](double unit, const std::string& columns, const std::string& part, const std::string& edit = {}) {
+    write_log("slow.csv", 2, 2, unit);
+    write_bench(1.2, 0.05, columns);
+    if (!edit.empty()) folder_.write("slow.csv", edit);
+    expect_refused([&] { check_logs(bench({"slow.csv"})); }, part);
+  };
+  refused(57.3, "angle: angle", "which look like degrees");
+  refused(1e-3, "angle: angle", "expected a motion");
+  refused(1, "angle: angle, duty: goal, duty_scale: 0.01", "the duty reaches 90");
+  refused(1, "angle: angle, current: goal, current_scale: 0.001", "mA have 1000 as scale");
+  refused(1, "angle: angle", "look like ticks", "t,goal,angle\n0,0,0\n0.1,0,300\n0.2,0,900\n");
+  refused(1, "angle: angle", "at row 3", "t,goal,angle\n0,0,0\n0.1,0,0.01\n0.2,0,6\n0.3,0,6.1\n0.4,0,6.2\n");
+  refused(1, "angle: angle", "times must rise", "t,goal,angle\n0,0,0\n0.1,0,1\n0.1,0,1\n");
+  refused(1, "angle: angle", "line 3, column 7", "t,goal,angle\n0,0,0\n0.1,0,nan\n");
+  refused(1, "angle: angle", "expected cells between commas", "t;goal;angle\n0;0;0\n");
+  refused(1, "angle: angle", "the table is empty", "\n");
+}
+
+TEST_F(Bench, RefusesWhatCannotBeFitted) {
+  write_log("slow.csv", 2, 2);
+  write_log("fast.csv", 5, 2);
+  write_bench();
+  std::vector<BenchLog> logs = bench({"slow.csv", "fast.csv"});
+  expect_refused([&] { hold_out(logs, {"none*"}, 0, 1); }, "no log matches 'none*'");
+  expect_refused([&] { hold_out(logs, {"fast"}, 0, 1); }, "1 of 2 logs is left to fit; expected at least 2");
+  expect_refused([&] { hold_out(logs, {}, 0.5, 1); }, "expected at least 2");
+  hold_out(logs, {}, 0.25, 1);
+  expect_refused([&] { check_peaks(logs, Logged::angle, 20); }, "20 keys cannot be told from");
+  expect_refused([&] { check_peaks(logs, Logged::torque, 1); }, "no column of the bench has the torque");
+  const auto keys = [&](const std::string& asked) { return fitted_keys(logs[0].scenario, {asked}); };
+  expect_refused([&] { keys("actuator.stal_torque"); }, "did you mean 'actuator.stall_torque'?");
+  expect_refused([&] { keys("controller.latency"); }, "expected a range, as in --fit controller.latency=LOW:HIGH");
+  expect_refused([&] { keys("actuator.stall_torque=3:1"); }, "expected LOW:HIGH with LOW below HIGH");
+  EXPECT_EQ(keys("actuator.stall_torque=1:3")[0].high, 3);
+  folder_.write("bench.yaml", text(1, 0.05) + "cpg: {type: none}\n");
+  expect_refused([&] { bench({"slow.csv"}); }, "the bench has no measured.file");
+}
+
+}  // namespace
+}  // namespace gaitlab::test
