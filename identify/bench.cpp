@@ -106,14 +106,16 @@ std::size_t reversals(const std::vector<double>& values, double share) {
   return count;
 }
 
-/// Settings of the start of a run: angles of the log's first row, and its length.
+/// Settings of the start of a run: angles and speeds of the log's first row, and its length.
 std::vector<std::string> start_of(const Scenario& scenario) {
   const MeasuredLog& log = *scenario.measured.log;
   std::vector<std::string> sets{"duration=" + number_text(log.t.back())};
   for (const MeasuredLog::OfJoint& joint : log.joints) {
-    const std::vector<double>& angle = joint.of(Logged::angle);
-    if (!angle.empty())
-      sets.push_back(fmt::format("initial.angles.{}={}", scenario.robot->joints[joint.joint].name, number_text(angle[0])));
+    const std::string& name = scenario.robot->joints[joint.joint].name;
+    for (const auto& [kind, key] : {std::pair(Logged::angle, "angles"), std::pair(Logged::speed, "speeds")}) {
+      const std::vector<double>& values = joint.of(kind);
+      if (!values.empty()) sets.push_back(fmt::format("initial.{}.{}={}", key, name, number_text(values[0])));
+    }
   }
   return sets;
 }
@@ -230,7 +232,8 @@ std::vector<BenchLog> read_bench(const std::string& file, const std::vector<std:
       log.hash = hash128(read_file(entry.file, kMostScenario));
       const Scenario as_stated = read_scenario(file, log.sets, catalog);
       std::ranges::move(start_of(as_stated), std::back_inserter(log.sets));
-      std::ranges::move(free_current(as_stated), std::back_inserter(log.sets));
+      log.freed = free_current(as_stated);
+      std::ranges::copy(log.freed, std::back_inserter(log.sets));
       log.with = std::make_unique<ScenarioTemplate>(file, log.sets, catalog);
       log.scenario = log.with->with({});
       made.push_back(std::move(log));

@@ -11,21 +11,22 @@ namespace gaitlab::identify {
 
 /// A log, and the scenario with which it is compared.
 struct BenchLog {
-  std::string file;               ///< its path
-  std::string name;               ///< name of the file without its ending
-  std::string group;              ///< logs of a group are left out together when terms are chosen
-  std::string hash;               ///< hash of its text
-  bool held_out = false;          ///< true if the log is not fitted
-  std::vector<std::string> sets;  ///< settings of this log, in the form of --set
-  Scenario scenario;              ///< with the bench's values of all keys
+  std::string file;                ///< its path
+  std::string name;                ///< name of the file without its ending
+  std::string group;               ///< logs of a group are left out together when terms are chosen
+  std::string hash;                ///< hash of its text
+  bool held_out = false;           ///< true if the log is not fitted
+  std::vector<std::string> sets;   ///< settings of this log, in the form of --set
+  std::vector<std::string> freed;  ///< those of them that state an efficiency instead of a stall current
+  Scenario scenario;               ///< with the bench's values of all keys
   std::unique_ptr<ScenarioTemplate> with;
 };
 
 /// Reads the bench for every log. `logs` are files, and tables of logs: a CSV whose first column is `file`; a column `group`
 /// names groups, and every other column is a setting with a value per log. Without it, logs with equal settings are a group, or
 /// each log without settings. Wherever the bench names the file of its section
-/// `measured`, the run of a log has that log; it begins at the angles of the log's first row, and lasts as long as the log.
-/// Throws InputError with the problems of all logs.
+/// `measured`, the run of a log has that log; it begins at the angles and speeds of the log's first row, and lasts as long as
+/// the log. Throws InputError with the problems of all logs.
 std::vector<BenchLog> read_bench(const std::string& file, const std::vector<std::string>& sets,
                                  const std::vector<std::string>& logs, Catalog& catalog);
 

@@ -106,6 +106,8 @@ void ErrorModels::run(std::size_t count, const std::function<Scenario(std::size_
 
 std::vector<Compared> ErrorModels::compared(const Point& point) {
   std::vector<Compared> all(logs_.size());
+  std::vector<Scenario> scenarios;
+  for (const BenchLog& log : logs_) scenarios.push_back(log.with->with(sets_of(point, keys_)));
   const auto largest = [](const Recording& recording, std::size_t joint, const char* quantity) {
     double most = 0;
     const Series values = recording.series(fmt::format("joint.{}.{}", joint, quantity));
@@ -113,7 +115,7 @@ std::vector<Compared> ErrorModels::compared(const Point& point) {
     return most;
   };
   run(
-      logs_.size(), [&](std::size_t l) { return logs_[l].with->with(sets_of(point, keys_)); },
+      logs_.size(), [&](std::size_t l) { return scenarios[l]; },
       [&](const RolloutEnd& one) {
         if (!one.recording.outcome.done()) return;
         Compared& made = all[one.rollout.number];

@@ -64,7 +64,7 @@ class ErrorModels {
   /// answers do not depend on threads. Throws Stopped if `stop` was set.
   std::vector<ErrorModel> operator()(std::span<const Question> questions);
 
-  /// Every log beside its run at a point, in the order of the logs.
+  /// Every log beside its run at a point, in the order of the logs. Throws InputError for a point that a scenario refuses.
   std::vector<Compared> compared(const Point& point);
 
   [[nodiscard]] const std::vector<Key>& keys() const { return keys_; }

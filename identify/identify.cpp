@@ -205,6 +205,8 @@ Identified identify(ErrorModels& models, const IdentifySettings& settings) {
   const std::vector<Key>& keys = models.keys();
   Identified made;
   made.kind = models.kind();
+  // A key that cannot be set is an error of the user; later, such a scenario is a point that no servo has.
+  static_cast<void>(models.logs()[0].with->with(sets_of(start(models, 0, settings.seed), keys)));
   settings.told("starts");
   fit_starts(made, models, settings);
   std::vector<double> worth(keys.size(), std::numeric_limits<double>::quiet_NaN());

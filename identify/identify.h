@@ -44,7 +44,8 @@ struct IdentifySettings {
 };
 
 /// Fits all keys from several starts, drops each key that earns less than 5 % of the error of left-out logs, and fits the rest
-/// again. Held-out logs are used only for their numbers at the end. Throws RunError if a run with the fitted values does not
+/// again. Held-out logs are used only for their numbers at the end. Throws InputError for a key that the bench does not let
+/// set, and RunError if a run with the fitted values does not
 /// reach its end.
 Identified identify(ErrorModels& models, const IdentifySettings& settings);
 

@@ -85,6 +85,7 @@ std::string servo_text(const std::string& name, const std::string& file, const s
   Problems problems;
   std::vector<Problem> notes;
   apply_sets(bench, sets, problems);
+  apply_sets(bench, logs[0].freed, problems);
   insert_servos(bench, std::filesystem::path(file).parent_path().string(), problems, notes);
   problems.raise();
   Section actuator = section_of(bench, "actuator", made, keys);

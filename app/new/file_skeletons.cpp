@@ -98,7 +98,7 @@ robot:
       arm:                             # all that turns, without the servo's own gear
         mass: @MASS@                      # kg
         com: [0, 0, -@LENGTH@]              # distance of its centre from the axis; at angle 0 it hangs down
-        inertia: [@INERTIA@, @INERTIA@, @INERTIA@, 0, 0, 0]   # about its centre; of a ball with a third of the length as radius
+        inertia: [@INERTIA@, @INERTIA@, @INERTIA@, 0, 0, 0]   # about its centre; of a ball with a sixth of the length as radius
     hinges: [{name: hinge, parent: stand, child: arm, axis: [0, 1, 0], range: free}]
 
 ground: {type: none}

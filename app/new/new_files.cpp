@@ -272,7 +272,7 @@ int new_bench(const NewFileArguments& arguments) {
     if (has_section(arguments, "controller", false))
       controller = fmt::format("{{type: rc_servo, model: {}, period: 0.001}}", servo);
   }
-  const double radius = arguments.length / 3;
+  const double radius = arguments.length / 6;
   const double inertia = 0.4 * arguments.mass * radius * radius;  // of a ball
   const std::pair<const char*, std::string> values[] = {
       {"@NAME@", arguments.name},

@@ -14,8 +14,7 @@ namespace {
 
 using namespace identify;
 
-constexpr double kTorque = 1.5;  // of the servo that makes the logs, N m
-constexpr double kDry = 0.08;
+constexpr double kTorque = 1.5, kDry = 0.08;  // of the servo that makes the logs, N m
 
 /// A mass on an arm, and logs of it that the program makes itself.
 class Bench : public ::testing::Test {
@@ -26,16 +25,16 @@ class Bench : public ::testing::Test {
                   "  arm: {mass: 0.5, com: [0, 0, -0.15], inertia: [1e-4, 1e-4, 1e-4, 0, 0, 0]}\n"
                   "hinges: [{name: hinge, parent: base, child: arm, axis: [0, 1, 0], range: free}]\n");
   }
-  static std::string text(double torque, double dry) {
+  static std::string text(double torque, double dry, const std::string& more = {}) {
     return fmt::format(
         "gaitlab: 1\nrobot: {{modules: ./lever.yaml, base: fixed, position: [0, 0, 1]}}\nground: {{type: none}}\n"
         "contact: {{\"on\": none}}\nphysics: {{engine: articulated, estimate: off}}\nduration: 2\n"
-        "actuator: {{type: servo, voltage: 6, stall_torque: {}, no_load_speed: 6, dry_friction: {}}}\n"
+        "actuator: {{type: servo, voltage: 6, stall_torque: {}, no_load_speed: 6, dry_friction: {}{}}}\n"
         "controller: {{type: rc_servo, gain: 2, period: 0.005}}\n",
-        torque, dry);
+        torque, dry, more);
   }
-  /// Set points of a log, which is longer than the change of a sign of its speed.
   static double goal(double t, double rate) { return 0.9 * std::sin(rate * t); }
+  /// A log of the true servo for goals of this rate; angles in multiples of `unit` rad.
   void write_log(const std::string& name, double rate, double gain, double unit = 1) {
     std::string table = "t,goal\n";
     for (int k = 0; k <= 200; ++k) table += fmt::format("{},{}\n", 0.01 * k, goal(0.01 * k, rate));
@@ -55,9 +54,10 @@ class Bench : public ::testing::Test {
     }
     folder_.write(name, log);
   }
+  /// With a stall current that the true torque contradicts: 1.5 N m at 6 rad/s need 1.5 A at 6 V.
   void write_bench(double torque = 1.2, double dry = 0.05, const std::string& columns = "angle: angle") {
     folder_.write("bench.yaml",
-                  text(torque, dry) +
+                  text(torque, dry, ", stall_current: 1.3") +
                       "cpg: {type: table, model: {file: log.csv, time: t, columns: [{joint: 0, column: goal}], interpolation: "
                       "linear, repeat: false}}\nmeasured: {file: log.csv, columns: {m0/hinge: {" +
                       columns + "}}}\n");
