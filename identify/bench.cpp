@@ -128,7 +128,7 @@ std::vector<std::string> free_current(const Scenario& scenario) {
   const auto logged = [](const MeasuredLog::OfJoint& joint) { return !joint.of(Logged::current).empty(); };
   if (stall == nullptr || !(stall->value[0] > 0) || std::ranges::any_of(scenario.measured.log->joints, logged)) return {};
   const double efficiency = make_motors(scenario)->dc_motors()[scenario.measured.log->joints[0].joint].efficiency;
-  return {"actuator.stall_current=0", "actuator.efficiency=" + number_text(efficiency)};
+  return {"actuator.stall_current=0", fmt::format("actuator.efficiency={:.4g}", efficiency)};
 }
 
 /// Faults of the numbers of a log, by the motor that it should be of.

@@ -167,6 +167,7 @@ std::string explain_word(const std::string& word, Catalog& catalog) {
   if (std::string text = explain_everywhere(word, catalog); !text.empty()) return text;
   if (const std::optional<FileKind> kind = kind_of_file(word)) {
     if (*kind == FileKind::module) return module_manual(word, catalog);
+    if (*kind == FileKind::servo) return servo_manual(word, catalog);
     throw InputError(SourceLocation{word}, "has no manual" + but_it_is(word));
   }
   if (std::string text = explain_part(word); !text.empty()) return text;
@@ -182,19 +183,22 @@ std::string explain_named(const std::string& kind_name, const std::string& name,
   }
   const std::vector<std::string> names = kind->names(catalog);
   const bool known = std::ranges::find(names, name) != names.end();
-  const bool module = kind->name == "module";
+  const bool own_files = kind->name == "module" || kind->name == "servo";
   std::error_code none;
   const bool file = std::filesystem::exists(name, none) && !std::filesystem::is_directory(name, none);
-  if (module && (name.ends_with(".yaml") || file)) {
-    if (known) say(name, "note", fmt::format("'{0}' is the file './{0}', not the module type that comes with gaitlab", name));
-    return module_manual(name, catalog);
+  if (own_files && (name.ends_with(".yaml") || file)) {
+    if (known)
+      say(name, "note",
+          fmt::format("'{0}' is the file './{0}', not the {1} that comes with gaitlab", name,
+                      kind->name == "module" ? "module type" : "servo"));
+    return kind->name == "module" ? module_manual(name, catalog) : servo_manual(name, catalog);
   }
   if (known) return kind->manual(name, catalog);
   const bool plugin = find_kind(kind->name) != nullptr && !plugins;
   refuse_unknown("explain", kind->name, name, names,
-                 module   ? "; name a type that you wrote by its file"
-                 : plugin ? "; a plugin that you wrote needs --plugin LIBRARY"
-                          : "");
+                 own_files ? fmt::format("; name a {} that you wrote by its file", kind->name == "module" ? "type" : "servo")
+                 : plugin  ? "; a plugin that you wrote needs --plugin LIBRARY"
+                           : "");
 }
 
 int explain(const ManualArguments& arguments) {

@@ -109,10 +109,7 @@ std::vector<ListedKind> all_kinds() {
   };
   all.push_back(std::move(modules));
   ListedKind servos = of_files("servo", "servos", false);
-  servos.manual = [](const std::string& name, Catalog& catalog) {
-    const std::string file = shipped_file("servo", name);
-    return fmt::format("{}file: {}\n", servo_table(file, head_comment(read_text(file)), catalog), file);
-  };
+  servos.manual = [](const std::string& name, Catalog& catalog) { return servo_manual(shipped_file("servo", name), catalog); };
   all.push_back(std::move(servos));
   all.push_back(of_files("robot", "robots", true));
   all.push_back({"figure", "figures", [](const Catalog&) { return to_strings(report::panel_names()); },
@@ -127,6 +124,10 @@ std::vector<ListedKind> all_kinds() {
 }
 
 }  // namespace
+
+std::string servo_manual(const std::string& file, const Catalog& catalog) {
+  return fmt::format("{}file: {}\n", servo_table(file, head_comment(read_text(file)), catalog), file);
+}
 
 const std::vector<ListedKind>& listed_kinds() {
   static const std::vector<ListedKind> kAll = all_kinds();

@@ -20,6 +20,8 @@ struct ListedKind {
 const std::vector<ListedKind>& listed_kinds();
 /// Kind with this name, in singular or plural, or nullptr.
 const ListedKind* listed_kind(const std::string& name);
+/// Manual of a servo file: its first comment, and the table of its numbers.
+std::string servo_manual(const std::string& file, const Catalog& catalog);
 
 /// Lines `  NAME  what it is` for the names of a kind.
 std::string name_rows(const ListedKind& kind, Catalog& catalog);
