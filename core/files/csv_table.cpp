@@ -67,7 +67,7 @@ std::size_t CsvTable::find(std::string_view name) const {
   return static_cast<std::size_t>(std::find(names_.begin(), names_.end(), name) - names_.begin());
 }
 
-std::vector<double> CsvTable::column(std::string_view name) const {
+std::vector<double> CsvTable::column(std::string_view name, double scale) const {
   const std::size_t at = find(name);
   if (at == names_.size()) throw std::invalid_argument("there is no column " + in_marks(std::string(name)));
   std::vector<double> numbers;
@@ -78,7 +78,7 @@ std::vector<double> CsvTable::column(std::string_view name) const {
     const auto [stopped, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc() || stopped != text.data() + text.size() || !std::isfinite(value))
       fail_at(row.line, row.cells[at].at, in_marks(text) + " is not a finite number");
-    numbers.push_back(value);
+    numbers.push_back(value / scale);
   }
   return numbers;
 }

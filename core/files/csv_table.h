@@ -19,8 +19,9 @@ class CsvTable {
   [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
   [[nodiscard]] std::size_t rows() const { return rows_.size(); }
   [[nodiscard]] bool has(std::string_view name) const { return find(name) < names_.size(); }
-  /// Numbers of a column. Throws std::invalid_argument at the first cell that is not a finite number, and for an unknown name.
-  [[nodiscard]] std::vector<double> column(std::string_view name) const;
+  /// Numbers of a column, divided by `scale`. Throws std::invalid_argument at the first cell that is not a finite number, and
+  /// for an unknown name.
+  [[nodiscard]] std::vector<double> column(std::string_view name, double scale = 1) const;
   /// Throws std::invalid_argument at the cell of a row in the column `name`, or at the name itself.
   [[noreturn]] void fail(std::size_t row, std::string_view name, const std::string& what) const;
   [[noreturn]] void fail(std::string_view name, const std::string& what) const;

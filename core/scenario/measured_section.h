@@ -20,19 +20,18 @@ inline constexpr const char* kMeasuredSection = "measured";
 enum class Logged : std::size_t { angle, speed, voltage, current, torque, duty };
 inline constexpr std::size_t kLoggedKinds = 6;
 
-/// The names of a quantity: its key, the key of its scale, and the column joint.N.COLUMN of a trace ("" for none).
+/// The names of a quantity: its key, and the column joint.N.COLUMN of a trace ("" for none).
 struct LoggedKind {
   Logged kind;
-  const char *key, *scale_key, *column, *unit, *about;
+  const char *key, *column, *unit, *about;
 };
 std::span<const LoggedKind, kLoggedKinds> logged_kinds();
 
-/// Columns of a log for one joint. Value of a quantity = number in the column / scale.
+/// Columns of a log for one joint.
 struct LoggedJoint {
-  std::string name;                               ///< name of the joint
-  std::array<std::string, kLoggedKinds> columns;  ///< "" for a quantity that was not measured
-  std::array<double, kLoggedKinds> scales{1, 1, 1, 1, 1, 1};
-  bool brief = false;  ///< true to visit only the keys that are stated; for writing
+  std::string name;                             ///< name of the joint
+  std::array<LogColumn, kLoggedKinds> columns;  ///< without a name for a quantity that was not measured
+  bool brief = false;                           ///< true to visit only the keys that are stated; for writing
   void fields(Fields& f);
 };
 

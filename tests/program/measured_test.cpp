@@ -36,7 +36,7 @@ std::string log_text(double step, double start = 0, double off_at = 1e9) {
 
 std::string measured(const std::string& log, const std::string& keys = {}) {
   return "measured:\n  time: clock\n" + keys +
-         "  columns: {m0/swing: {angle: angle, duty: pwm, duty_scale: 885}}\n  file: |\n" + log;
+         "  columns: {m0/swing: {angle: angle, duty: {column: pwm, scale: 885}}}\n  file: |\n" + log;
 }
 
 TEST(Measured, ErrorsAreThoseOfTraceAndLog) {
@@ -139,7 +139,7 @@ TEST(Measured, TheCheckWarnsOfAnotherMotion) {
 TEST(Measured, ReplayGivesTheCommandsOfTheLog) {
   const std::string controller =
       "controller:\n  type: replay\n  period: 0.01\n  unit: duty\n  time: clock\n"
-      "  columns: [{joint: 0, column: pwm, scale: 885}]\n  file: |\n" +
+      "  columns: {0: {column: pwm, scale: 885}}\n  file: |\n" +
       log_text(0.004, 7);
   const Recording r = run(scenario(rod() + kBench + controller));
   const Table row(r.trace);
@@ -166,7 +166,10 @@ TEST(Measured, RefusesALogWithItsPlace) {
   refused("  columns: {m0/swing: {angle: b}}\n" + log, "the log has no column 'b'");
   refused("  columns: {m0/swing: {}}\n" + log, "no column of joint m0/swing is stated");
   refused("  columns: {m0/swim: {angle: a}}\n" + log, "no joint 'm0/swim'; did you mean 'm0/swing'?");
-  refused("  columns: {m0/swing: {angle: a, angle_scale: 0}}\n" + log, "angle_scale is 0");
+  refused("  columns: {m0/swing: {angle: {column: a, scale: 0}}}\n" + log, "scale is 0; expected the number in the column");
+  refused("  columns: {m0/swing: {angle: {scale: 2}}}\n" + log, "missing key 'column'");
+  refused("  columns: {m0/swing: {angle: [a]}}\n" + log,
+          "angle is a list; expected the name of a column, or {column: NAME, scale: NUMBER}");
   refused("  columns: {m0/swing: {angle: a, angel: b}}\n" + log, "unknown key 'angel'");
   refused("  time: time\n" + columns + log, "the log has no column 'time'; known columns: t, a");
 }
