@@ -126,6 +126,20 @@ class LogReader {
   CsvTable table_;
 };
 
+/// Adds a problem for each bound of a quantity that the log does not have.
+void check_bounds(const Node& section, const MeasuredBounds& bounds, const MeasuredLog& log, Problems& problems) {
+  for (std::size_t i = 0; i < bounds.most.size(); ++i) {
+    const MeasuredBounds::Number& number = MeasuredBounds::numbers()[i];
+    const auto logged = [&](const MeasuredLog::OfJoint& joint) { return !joint.of(number.of).empty(); };
+    if (!bounds.stated(i) || std::ranges::any_of(log.joints, logged)) continue;
+    const Node* const stated = section.find("bound");
+    const Node* const value = stated == nullptr ? nullptr : stated->find(number.key);
+    problems.add(value == nullptr ? section.place : value->place,
+                 fmt::format("bound has {}, but no joint has a column for {}", number.key,
+                             kKinds[static_cast<std::size_t>(number.of)].key));
+  }
+}
+
 void set_places(Node& node, const SourceLocation& place) {
   node.place = place;
   for (auto& key : node.keys) key.second = place;
@@ -164,6 +178,31 @@ double MeasuredLog::at(const std::vector<double>& values, double time) const {
   return values[row] + (values[row + 1] - values[row]) * (time - t[row]) / (t[row + 1] - t[row]);
 }
 
+const std::vector<MeasuredBounds::Number>& MeasuredBounds::numbers() {
+  static const std::vector<Number> kAll = [] {
+    std::vector<Number> all;
+    for (const LoggedKind& kind : kKinds) {
+      if (*kind.column == '\0') continue;
+      for (const char* number : kErrorNumbers) all.push_back({fmt::format("{}.{}", kind.key, number), kind.unit, kind.kind});
+    }
+    for (const char* number : kLimitNumbers) all.push_back({number, "", Logged::duty});
+    return all;
+  }();
+  return kAll;
+}
+
+bool MeasuredBounds::any() const {
+  return std::ranges::any_of(most, [](double one) { return one != kNotStated; });
+}
+
+void MeasuredBounds::fields(Fields& f) {
+  for (std::size_t i = 0; i < most.size(); ++i) {
+    const Number& number = numbers()[i];
+    if (!brief || stated(i))
+      Marked(f, Need::optional).number(number.key.c_str(), most[i], {number.unit, 0, 1e9, "Largest value that passes."});
+  }
+}
+
 void LoggedJoint::fields(Fields& f) {
   for (const LoggedKind& kind : kKinds) {
     const auto k = static_cast<std::size_t>(kind.kind);
@@ -181,6 +220,9 @@ void MeasuredSettings::fields(Fields& f) {
   if (!brief || !source.empty())
     Marked(f, Need::optional).text("source", source, "Origin and licence of the log, which page and verdict cite.");
   for (LoggedJoint& joint : columns) joint.brief = brief;
+  bound.brief = brief;
+  if (!brief || bound.any())
+    f.group("bound", bound, "Bounds of the numbers `measured.*` of a run, which `gaitlab test` judges like a golden.");
   f.by_name(
       "columns", columns, "{angle: COLUMN}",
       "Columns of each joint that was measured, by its name; required. Scale: the number in the column for 1 in SI units.");
@@ -198,15 +240,17 @@ bool MeasuredSettings::reads(const std::string& column) const {
 void finish_measured(const Node& node, Scenario& scenario, Problems& problems) {
   if (node.kind != Node::Kind::map || !scenario.robot) return;
   const Node* const file = node.find("file");
+  const bool path = file != nullptr && file->text.find('\n') == std::string::npos;
+  scenario.measured.path = path ? file->text : "";
   if (file == nullptr) problems.add(node.place, "measured has no file; expected the CSV of the log");
   if (node.find("columns") == nullptr) problems.add(node.place, "measured has no columns; expected {JOINT: {angle: COLUMN}}");
   if (file == nullptr || scenario.measured.columns.empty()) return;
   const std::size_t before = problems.size();
   try {
     MeasuredLog log = LogReader(node, scenario, problems).read();
+    check_bounds(node, scenario.measured.bound, log, problems);
     if (problems.size() == before) scenario.measured.log = std::make_shared<const MeasuredLog>(std::move(log));
   } catch (const std::invalid_argument& error) {
-    const bool path = file->text.find('\n') == std::string::npos;
     problems.add(file->place, path ? fmt::format("log {}, {}", in_quotes(file->text), error.what())
                                    : fmt::format("the log's {}", error.what()));
   }

@@ -27,6 +27,26 @@ struct LoggedKind {
 };
 std::span<const LoggedKind, kLoggedKinds> logged_kinds();
 
+/// The numbers measured.QUANTITY.NUMBER of the difference between run and log, and the numbers measured.NUMBER of both. A
+/// quantity without a trace column has none.
+inline constexpr std::array kErrorNumbers{"mae", "rms", "peak"};
+inline constexpr std::array kLimitNumbers{"limit.simulated", "limit.logged"};
+
+/// Bounds of these numbers, which `gaitlab test` judges.
+struct MeasuredBounds {
+  struct Number {
+    std::string key;  ///< such as angle.mae
+    const char* unit;
+    Logged of;  ///< quantity that the log must have
+  };
+  static const std::vector<Number>& numbers();
+  std::vector<double> most = std::vector<double>(numbers().size(), kNotStated);  ///< by number
+  bool brief = false;                                                            ///< as LoggedJoint::brief
+  [[nodiscard]] bool stated(std::size_t number) const { return most[number] != kNotStated; }
+  [[nodiscard]] bool any() const;
+  void fields(Fields& f);
+};
+
 /// Columns of a log for one joint.
 struct LoggedJoint {
   std::string name;                             ///< name of the joint
@@ -53,7 +73,9 @@ struct MeasuredSettings {
   std::string time = "t";  ///< name of the column of times, s
   std::string on;          ///< name of the column that is 0 while the motors have no torque; "" for none
   std::string source;      ///< origin and licence of the log; "" if not stated
-  bool brief = false;      ///< as LoggedJoint::brief
+  std::string path;        ///< name of the file, if it is not given as text
+  MeasuredBounds bound;
+  bool brief = false;  ///< as LoggedJoint::brief
   std::vector<LoggedJoint> columns;
   std::shared_ptr<const MeasuredLog> log;  ///< null without the section
   [[nodiscard]] bool any() const { return log != nullptr; }

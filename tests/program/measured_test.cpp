@@ -171,6 +171,9 @@ TEST(Measured, RefusesALogWithItsPlace) {
   refused("  columns: {m0/swing: {angle: [a]}}\n" + log,
           "angle is a list; expected the name of a column, or {column: NAME, scale: NUMBER}");
   refused("  columns: {m0/swing: {angle: a, angel: b}}\n" + log, "unknown key 'angel'");
+  refused("  bound: {angle.mea: 1}\n" + columns + log, "unknown key 'angle.mea'; did you mean 'angle.mae'?");
+  refused("  bound: {angle.mae: -1}\n" + columns + log, "angle.mae is -1 rad; expected 0 to 1000000000 rad");
+  refused("  bound: {torque.rms: 1}\n" + columns + log, "bound has torque.rms, but no joint has a column for torque");
   refused("  time: time\n" + columns + log, "the log has no column 'time'; known columns: t, a");
 }
 
