@@ -29,7 +29,7 @@ Source: none; the input of output-error identification (L. Ljung, System Identif
 
 void Replay::Settings::fields(Fields& f) {
   static constexpr const char* kUnits[] = {"V", "N m", "duty"};
-  f.file("file", file, "The log: a CSV with a line of names, then a line per row.");
+  f.file("file", file, "The log: a CSV with a line of names, then a line per row, or JSON with a list `entries`.");
   f.text("time", time, "Column of the times, s, which rise.");
   f.choice("unit", unit, kUnits, "Unit of the commands.");
   f.columns("columns", columns, "Column of a joint's commands. Scale: the number in the column for a command of 1.");

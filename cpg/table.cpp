@@ -76,7 +76,7 @@ Keyframes::Settings keyframes_of(const RobotInfo& robot, const Table::Model& mod
     settings.model.frames = frames_of(robot, model);
   } catch (const std::invalid_argument& error) {
     const std::string_view what = error.what();
-    throw std::invalid_argument(what.starts_with("line ") ? "the table's " + std::string(what) : std::string(what));
+    throw std::invalid_argument(has_place(what) ? "the table's " + std::string(what) : std::string(what));
   }
   settings.model.interpolation = model.interpolation;
   settings.model.repeat = model.repeat;
@@ -88,10 +88,10 @@ Keyframes::Settings keyframes_of(const RobotInfo& robot, const Table::Model& mod
 
 void Table::Model::fields(Fields& f) {
   static constexpr const char* kInterpolations[] = {"spline", "linear"};
-  f.file("file", file, "The CSV: time and joints.");
+  f.file("file", file, "The CSV: time and joints, or JSON with a list `entries`.");
   f.text("time", time, "Name of the column of times, which may begin at any time; without it, the first column, from 0.");
   f.columns("columns", columns,
-            "Column of a joint's set points, for a CSV whose columns are not named after joints. Scale: the number in the "
+            "Column of a joint's set points, for a file whose columns are not named after joints. Scale: the number in the "
             "column for 1 rad.");
   f.choice("interpolation", interpolation, kInterpolations, "Interpolation between rows.");
   f.flag("repeat", repeat, "Start again after the last row, which must equal the first; otherwise hold the last row.");

@@ -211,7 +211,7 @@ void LoggedJoint::fields(Fields& f) {
 }
 
 void MeasuredSettings::fields(Fields& f) {
-  f.file("file", file, "The log: a CSV with a line of names, then a line per row; required.");
+  f.file("file", file, "The log: a CSV with a line of names, then a line per row, or JSON with a list `entries`; required.");
   f.text("time", time, "Column of the times, s, which rise; the first is the start of the run.");
   if (!brief || !on.empty()) {
     Marked(f, Need::optional)
@@ -242,7 +242,7 @@ void finish_measured(const Node& node, Scenario& scenario, Problems& problems) {
   const Node* const file = node.find("file");
   const bool path = file != nullptr && file->text.find('\n') == std::string::npos;
   scenario.measured.path = path ? file->text : "";
-  if (file == nullptr) problems.add(node.place, "measured has no file; expected the CSV of the log");
+  if (file == nullptr) problems.add(node.place, "measured has no file; expected the CSV or JSON of the log");
   if (node.find("columns") == nullptr) problems.add(node.place, "measured has no columns; expected {JOINT: {angle: COLUMN}}");
   if (file == nullptr || scenario.measured.columns.empty()) return;
   const std::size_t before = problems.size();
@@ -251,8 +251,9 @@ void finish_measured(const Node& node, Scenario& scenario, Problems& problems) {
     check_bounds(node, scenario.measured.bound, log, problems);
     if (problems.size() == before) scenario.measured.log = std::make_shared<const MeasuredLog>(std::move(log));
   } catch (const std::invalid_argument& error) {
-    problems.add(file->place, path ? fmt::format("log {}, {}", in_quotes(file->text), error.what())
-                                   : fmt::format("the log's {}", error.what()));
+    problems.add(file->place, path                      ? fmt::format("log {}, {}", in_quotes(file->text), error.what())
+                              : has_place(error.what()) ? fmt::format("the log's {}", error.what())
+                                                        : error.what());
   }
 }
 

@@ -69,7 +69,7 @@ struct MeasuredLog {
 };
 
 struct MeasuredSettings {
-  std::string file;        ///< text of the CSV
+  std::string file;        ///< text of the log (CsvTable)
   std::string time = "t";  ///< name of the column of times, s
   std::string on;          ///< name of the column that is 0 while the motors have no torque; "" for none
   std::string source;      ///< origin and licence of the log; "" if not stated

@@ -149,6 +149,34 @@ TEST(Measured, ReplayGivesTheCommandsOfTheLog) {
   EXPECT_NEAR(row(0.765, "joint.0.voltage_command"), 6 * 100.0 / 885, 1e-12);
 }
 
+TEST(Measured, AJsonOfARecorderIsTheSameLog) {
+  const std::string keys = "measured: {time: timestamp, 'on': torque_enable, columns: {m0/swing: {angle: position}}, file: ";
+  std::string json = "{\"mass\": 1, \"entries\": [";
+  std::string csv = "timestamp,position,torque_enable\n";
+  for (int k = 0; k < 5; ++k) {
+    json += fmt::format("{}{{\"timestamp\": {:.17g}, \"position\": {:.17g}, \"torque_enable\": {}}}", k == 0 ? "" : ", ",
+                        0.1 * k, std::sin(k), k < 3);
+    csv += fmt::format("{:.17g},{:.17g},{}\n", 0.1 * k, std::sin(k), k < 3 ? 1 : 0);
+  }
+  const Folder folder;
+  folder.write("log.json", json + "]}");
+  folder.write("log.csv", csv);
+  const auto read = [&](const std::string& name) {
+    return read_scenario(folder.write("s.yaml", rod() + kBench + kLoop + keys + name + "}\n"), {}, catalog());
+  };
+  const Scenario a = read("log.json");
+  const Scenario b = read("log.csv");
+  EXPECT_EQ(a.measured.log->t, b.measured.log->t);
+  EXPECT_EQ(a.measured.log->joints[0].values, b.measured.log->joints[0].values);
+  EXPECT_EQ(a.changes.size(), 1U);
+  EXPECT_EQ(resolved(scenario(resolved(a))), resolved(a));
+  folder.write("log.json",
+               "{\"entries\": [{\"timestamp\": 0, \"torque_enable\": 1, \"position\": 0}, {\"timestamp\": 0, "
+               "\"torque_enable\": 1, \"position\": 0}]}");
+  const std::string found = message_of([&] { read("log.json"); });
+  EXPECT_TRUE(contains(found, "log 'log.json', entry 2, key 'timestamp': times must rise")) << found;
+}
+
 TEST(Measured, RefusesALogWithItsPlace) {
   const auto error = [](const std::string& section) { return message_of([&] { scenario(rod() + kBench + kLoop + section); }); };
   const std::string columns = "  columns: {m0/swing: {angle: a}}\n";
@@ -157,7 +185,7 @@ TEST(Measured, RefusesALogWithItsPlace) {
     const std::string found = error("measured:\n" + section);
     EXPECT_TRUE(contains(found, text)) << found;
   };
-  refused(columns, "measured has no file; expected the CSV of the log");
+  refused(columns, "measured has no file; expected the CSV or JSON of the log");
   refused(log, "measured has no columns; expected {JOINT: {angle: COLUMN}}");
   refused(columns + "  file: none.csv\n", "none.csv");
   refused(columns + "  file: |\n    t,a\n    0,0\n    0,1\n", "the log's line 3, column 1: times must rise");
