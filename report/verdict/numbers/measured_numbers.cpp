@@ -53,7 +53,8 @@ std::vector<SummaryNumber> measured_numbers() {
                    .unit = unit,
                    .definition = text(definition + "; mean of all joints that the log has."),
                    .value = value,
-                   .if_known = true});
+                   .if_known = true,
+                   .compare = {static_cast<int>(260 + all.size())}});
     all.push_back({.key = text("per_joint.J.measured." + key),
                    .unit = unit,
                    .definition = text(definition + "."),
