@@ -21,24 +21,18 @@ Source: none; the input of output-error identification (L. Ljung, System Identif
     controller:
       type: replay
       unit: V
-      columns: [{joint: m0/active, column: volts}]
+      columns: {m0/active: volts}
       file: |
         t,   volts
         0,   0
         0.5, 3)";
 
-void Replay::Column::fields(Fields& f) {
-  f.joint("joint", joint, "The joint.");
-  f.text("column", column, "Its column.");
-  f.number("scale", scale, {"", -1e9, 1e9, "Number in the column for a command of 1; not 0."});
-}
-
 void Replay::Settings::fields(Fields& f) {
   static constexpr const char* kUnits[] = {"V", "N m", "duty"};
-  f.file("file", file, "The log: a CSV with a line of names, then a line per row.");
+  f.file("file", file, "The log: a CSV with a line of names, then a line per row, or JSON with a list `entries`.");
   f.text("time", time, "Column of the times, s, which rise.");
   f.choice("unit", unit, kUnits, "Unit of the commands.");
-  f.list("columns", columns, "Columns of the commands.");
+  f.columns("columns", columns, "Column of a joint's commands. Scale: the number in the column for a command of 1.");
 }
 
 Replay::Replay(const RobotInfo& robot, const Settings& settings) : unit_(settings.unit), period_(robot.control_period) {
@@ -51,16 +45,10 @@ Replay::Replay(const RobotInfo& robot, const Settings& settings) : unit_(setting
     if (k > 0 && !(time_[k] > time_[k - 1])) log.fail(k, settings.time, "times must rise");
   }
   std::vector<std::vector<double>> columns;
-  for (const Column& one : settings.columns) {
-    if (one.joint < 0) continue;  // an unknown joint, which the reader has reported
-    const auto joint = static_cast<std::size_t>(one.joint);
-    const std::string name(robot.joints[joint].name);
-    if (std::find(joints_.begin(), joints_.end(), joint) != joints_.end())
-      throw std::invalid_argument("joint '" + name + "' has two columns");
-    if (one.scale == 0) throw std::invalid_argument("the scale of joint '" + name + "' is 0");
-    joints_.push_back(joint);
-    columns.push_back(log.column(one.column));
-    for (double& value : columns.back()) value /= one.scale;
+  for (const auto& [joint, column] : settings.columns) {
+    if (joint < 0) continue;
+    joints_.push_back(static_cast<std::size_t>(joint));
+    columns.push_back(log.column(column.name, column.scale));
   }
   values_.reserve(time_.size() * joints_.size());
   for (std::size_t k = 0; k < time_.size(); ++k) {

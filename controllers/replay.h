@@ -11,23 +11,15 @@ namespace gaitlab::controllers {
 class Replay final : public Controller {
  public:
   enum class Unit { V, Nm, duty };
-  /// A column of the log, and its joint. Command = number in the column / scale.
-  struct Column {
-    std::int64_t joint = -1;
-    std::string column;
-    double scale = 1;
-    void fields(Fields& f);
-  };
   struct Settings {
     std::string file = "t\n0\n", time = "t";
     Unit unit = Unit::duty;
-    std::vector<Column> columns;
+    std::vector<JointColumn> columns;
     void fields(Fields& f);
   };
   static const char* const kManual;
 
-  /// Throws std::invalid_argument for a log without rows, times that do not rise, a joint with two columns, a scale of 0, and
-  /// the errors of CsvTable.
+  /// Throws std::invalid_argument for a log without rows, times that do not rise, and the errors of CsvTable.
   Replay(const RobotInfo& robot, const Settings& settings);
   [[nodiscard]] std::string_view command_unit() const override;
   [[nodiscard]] std::size_t states() const override { return 1; }  // number of the control tick

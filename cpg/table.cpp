@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <stdexcept>
 #include <string_view>
-#include <utility>
 
 #include "core/files/csv_table.h"
 
@@ -33,27 +32,18 @@ Reference: C. de Boor, A Practical Guide to Splines, Springer 1978, chapter IV.
 
 namespace {
 
-/// Joint of each column, by the names of the columns or by Model::columns.
-std::vector<std::pair<std::string, std::size_t>> joints_of(const CsvTable& table, const std::string& time,
-                                                           const RobotInfo& robot, const Table::Model& model) {
-  std::vector<std::pair<std::string, std::size_t>> columns;
-  const auto taken = [&](std::size_t joint) {
-    return std::any_of(columns.begin(), columns.end(), [&](const auto& column) { return column.second == joint; });
-  };
-  for (const Table::Column& one : model.columns) {
-    if (one.joint < 0) continue;  // an unknown joint, which the reader has reported
-    const auto joint = static_cast<std::size_t>(one.joint);
-    if (taken(joint)) throw std::invalid_argument("joint '" + std::string(robot.joints[joint].name) + "' has a column already");
-    columns.emplace_back(one.column, joint);
-  }
-  if (!model.columns.empty()) return columns;
+/// Columns named after joints, by name or number.
+std::vector<JointColumn> columns_of_joints(const CsvTable& table, const std::string& time, const RobotInfo& robot) {
+  std::vector<JointColumn> columns;
   for (const std::string& name : table.names()) {
     if (name == time) continue;
     std::size_t j = 0;
     while (j < robot.joints.size() && name != robot.joints[j].name && name != std::to_string(j)) ++j;
     if (j == robot.joints.size()) table.fail(name, "no joint '" + name.substr(0, 40) + "'");
-    if (taken(j)) table.fail(name, "joint '" + std::string(robot.joints[j].name) + "' has a column already");
-    columns.emplace_back(name, j);
+    const auto joint = static_cast<std::int64_t>(j);
+    if (std::ranges::find(columns, joint, &JointColumn::joint) != columns.end())
+      table.fail(name, "joint '" + std::string(robot.joints[j].name) + "' has a column already");
+    columns.push_back({joint, {name}});
   }
   return columns;
 }
@@ -72,9 +62,10 @@ std::vector<Keyframes::Frame> frames_of(const RobotInfo& robot, const Table::Mod
     if (k == 0 && frames[k].time != 0) table.fail(k, time, "the first time must be 0");
     if (k > 0 && !(times[k] > times[k - 1])) table.fail(k, time, "times must rise");
   }
-  for (const auto& [name, joint] : joints_of(table, time, robot, model)) {
-    const std::vector<double> angles = table.column(name);
-    for (std::size_t k = 0; k < angles.size(); ++k) frames[k].angles.each[joint] = angles[k];
+  for (const auto& [joint, column] : model.columns.empty() ? columns_of_joints(table, time, robot) : model.columns) {
+    if (joint < 0) continue;
+    const std::vector<double> angles = table.column(column.name, column.scale);
+    for (std::size_t k = 0; k < angles.size(); ++k) frames[k].angles.each[static_cast<std::size_t>(joint)] = angles[k];
   }
   return frames;
 }
@@ -85,7 +76,7 @@ Keyframes::Settings keyframes_of(const RobotInfo& robot, const Table::Model& mod
     settings.model.frames = frames_of(robot, model);
   } catch (const std::invalid_argument& error) {
     const std::string_view what = error.what();
-    throw std::invalid_argument(what.starts_with("line ") ? "the table's " + std::string(what) : std::string(what));
+    throw std::invalid_argument(has_place(what) ? "the table's " + std::string(what) : std::string(what));
   }
   settings.model.interpolation = model.interpolation;
   settings.model.repeat = model.repeat;
@@ -97,21 +88,17 @@ Keyframes::Settings keyframes_of(const RobotInfo& robot, const Table::Model& mod
 
 void Table::Model::fields(Fields& f) {
   static constexpr const char* kInterpolations[] = {"spline", "linear"};
-  f.file("file", file, "The CSV: time and joints.");
+  f.file("file", file, "The CSV: time and joints, or JSON with a list `entries`.");
   f.text("time", time, "Name of the column of times, which may begin at any time; without it, the first column, from 0.");
-  f.list("columns", columns,
-         "Columns of the joints, for a CSV whose columns are not named after joints: [{joint: 0, column: goal}].");
+  f.columns("columns", columns,
+            "Column of a joint's set points, for a file whose columns are not named after joints. Scale: the number in the "
+            "column for 1 rad.");
   f.choice("interpolation", interpolation, kInterpolations, "Interpolation between rows.");
   f.flag("repeat", repeat, "Start again after the last row, which must equal the first; otherwise hold the last row.");
   f.number("ramp", ramp,
            {"s", 0, 1e6,
             "Duration of the start, in which the motion about the first row grows linearly from 0; without "
             "initial.angles the robot starts at the first row."});
-}
-
-void Table::Column::fields(Fields& f) {
-  f.joint("joint", joint, "The joint.");
-  f.text("column", column, "Its column.");
 }
 
 Table::Table(const RobotInfo& robot, const Settings& settings) : frames_(robot, keyframes_of(robot, settings.model)) {}

@@ -1,6 +1,5 @@
 // Gait `table`, set points from a CSV text, joined like keyframes.
 #pragma once
-#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -10,15 +9,9 @@ namespace gaitlab::cpg {
 
 class Table final : public Cpg {
  public:
-  /// A column of the CSV, and its joint.
-  struct Column {
-    std::int64_t joint = -1;
-    std::string column;
-    void fields(Fields& f);
-  };
   struct Model {
     std::string file = "time\n0\n1\n", time;
-    std::vector<Column> columns;
+    std::vector<JointColumn> columns;
     Keyframes::Interpolation interpolation = Keyframes::Interpolation::spline;
     bool repeat = true;
     double ramp = 0;

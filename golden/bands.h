@@ -9,6 +9,16 @@
 
 namespace gaitlab::golden {
 
+/// A number of the comparison with a log of the real robot, and its bound (MeasuredBounds).
+struct BoundCheck {
+  std::string name, unit;  ///< name as in a study: measured.angle.mae
+  std::string log;         ///< file of the log; "" if the scenario contains its text
+  double value = 0;        ///< NaN if the run covers fewer than two rows of the log
+  double most = 0;
+  [[nodiscard]] bool passed() const { return value <= most; }  // false if NaN
+  [[nodiscard]] double ratio() const { return most > 0 ? value / most : value; }
+};
+
 /// Content of a golden from a run (trace with `t` first, numbers, word of the verdict), and data for messages about the run.
 struct GoldenRun {
   Trace trace;
@@ -17,7 +27,8 @@ struct GoldenRun {
   std::vector<double> natural = {};  ///< natural scale of each column, in its unit; 0 if its unit has none (natural_scales.h)
   std::optional<Word> verdict = {};  ///< empty if the run was not judged
   std::string why = {};              ///< sentence that follows a word other than `feasible` (report/verdict/verdict.h)
-  int starts = 1;                    ///< number of runs of which the numbers are means (starts.h)
+  std::vector<BoundCheck> bounds = {};  ///< one for each bound of the scenario, if the run was judged
+  int starts = 1;                       ///< number of runs of which the numbers are means (starts.h)
 };
 
 /// Scales of differences, one per column, in the unit of the column. A scale is the range of the column, but at least 1e-3 of

@@ -74,6 +74,18 @@ Found found_in(const fs::path& folder) {
   return found;
 }
 
+/// True if the scenario bounds its differences from a log, so that it is a case without a golden. An error in the file is
+/// reported where its golden is looked for.
+bool states_bound(const fs::path& file) {
+  try {
+    const Node root = read_yaml(file.string());
+    const Node* const measured = root.find(kMeasuredSection);
+    return measured != nullptr && measured->find("bound") != nullptr;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
 GoldenCase case_of(const fs::path& file, const std::optional<std::string>& golden, bool must) {
   GoldenCase c{file.string()};
   try {
@@ -83,6 +95,8 @@ GoldenCase case_of(const fs::path& file, const std::optional<std::string>& golde
       throw InputError(SourceLocation{c.file}, "is a link to a file that does not exist");
     if (golden || is_there(c.folder)) {
       c.golden = read_golden(c.folder);
+    } else if (states_bound(file)) {
+      return c;
     } else if (!must) {
       c.verdict = CaseVerdict::skipped;
     } else {
@@ -131,7 +145,14 @@ void read_case(GoldenCase& c, const std::optional<std::string>& engine, Catalog&
     Scenario scenario = read_scenario(c.file, {}, catalog);
     report::check_accepted(scenario);
     const bool chosen = scenario.physics.adapts();
-    if (engine) scenario = with_engine(c.file, scenario, *engine, c.golden->origin.step, catalog);
+    if (engine) {
+      const double step = c.golden ? c.golden->origin.step : scenario.physics.step;
+      scenario = with_engine(c.file, scenario, *engine, step, catalog);
+    }
+    if (!c.golden) {
+      c.scenario = std::move(scenario);
+      return;
+    }
     take_golden_accuracy(scenario);
     c.other_engine = scenario.physics.engine->name != c.golden->origin.engine ||
                      (engine && scenario.physics.integrator->name != c.golden->origin.integrator);
@@ -160,8 +181,10 @@ void judge(GoldenCase& c, const Attempt& outcome, const Attempt* halved) {
     return;
   }
   c.run = outcome.run;
-  c.difference = compare(*c.golden, c.run, c.other_engine, halved != nullptr ? &halved->run : nullptr);
+  if (c.golden) c.difference = compare(*c.golden, c.run, c.other_engine, halved != nullptr ? &halved->run : nullptr);
+  c.difference.bounds = c.run.bounds;
   if (!c.difference.passed()) c.verdict = CaseVerdict::regression;
+  if (!c.golden) return;
   try {
     // If the columns are the same, the golden may belong to a scenario that was renamed and changed. This is a regression,
     // whose message contains both names.
@@ -223,7 +246,7 @@ std::vector<GoldenCase> golden_cases(const TestArguments& arguments, Catalog& ca
     for (const fs::path& golden : found.orphans) cases.push_back(orphan(golden));
   }
   for (GoldenCase& c : cases) {
-    if (c.golden) read_case(c, arguments.engine, catalog);
+    if (c.verdict == CaseVerdict::passed) read_case(c, arguments.engine, catalog);
   }
   return cases;
 }
@@ -232,7 +255,7 @@ void run_cases(std::vector<GoldenCase>& cases, const TestArguments& arguments, c
   std::vector<Scenario> scenarios;
   for (const GoldenCase& c : cases) {
     const auto add = [&](const Scenario& s) {
-      scenarios.push_back(with_golden_columns(s, c.golden->selected, &c.golden->run.trace));
+      scenarios.push_back(c.golden ? with_golden_columns(s, c.golden->selected, &c.golden->run.trace) : s);
     };
     if (c.scenario) add(*c.scenario);
     if (c.halved) add(*c.halved);

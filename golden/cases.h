@@ -32,7 +32,7 @@ struct GoldenCase {
   std::string file;                       ///< path of the scenario, as given or found
   std::filesystem::path folder = {};      ///< folder of the golden
   bool given_golden = false;              ///< true if given by --golden: the golden may belong to another scenario
-  std::optional<Golden> golden = {};      ///< empty until it has been read
+  std::optional<Golden> golden = {};      ///< empty until it has been read, and for a scenario that only bounds measured.*
   std::optional<Scenario> scenario = {};  ///< empty until it has been read
   bool other_engine = false;              ///< true if the run uses another engine than the golden
   std::optional<Scenario> halved = {};    ///< the scenario with half its step, if the golden's bands are not those of its step
@@ -58,10 +58,10 @@ void check_own(const Golden& golden, const std::filesystem::path& folder, const 
 
 /// Collects one case per scenario, in the order of the arguments, with the scenarios of a folder sorted by name. Each scenario
 /// occurs once. A folder means its scenarios, and the scenarios with a golden in the folders below it. A scenario without a
-/// golden is skipped, or is a failing case with --strict. The case of a golden without a scenario always fails. Goldens and
-/// scenarios are read here; an error in either is the result of its case. Throws InputError for an argument that is neither
-/// scenario nor folder, for a folder without scenarios, for two scenarios with one golden, and for --golden unless there is
-/// exactly one scenario.
+/// golden is skipped, or is a failing case with --strict, unless it states `measured.bound`. The case of a golden without a
+/// scenario always fails. Goldens and scenarios are read here; an error in either is the result of its case. Throws InputError
+/// for an argument that is neither scenario nor folder, for a folder without scenarios, for two scenarios with one golden, and
+/// for --golden unless there is exactly one scenario.
 std::vector<GoldenCase> golden_cases(const TestArguments& arguments, Catalog& catalog);
 
 /// Runs all cases that can run and compares the results with the goldens. `progress(share)` is as in golden_runs().

@@ -172,12 +172,14 @@ const Check* worst(const std::vector<Check>& checks) {
 bool GoldenDifference::passed() const {
   const auto passes = [](const auto& check) { return check.passed(); };
   return findings.empty() && std::all_of(columns.begin(), columns.end(), passes) &&
-         std::all_of(numbers.begin(), numbers.end(), passes);
+         std::all_of(numbers.begin(), numbers.end(), passes) && std::all_of(bounds.begin(), bounds.end(), passes);
 }
 
 const ColumnCheck* GoldenDifference::worst_column() const { return worst(columns); }
 
 const NumberCheck* GoldenDifference::worst_number() const { return worst(numbers); }
+
+const BoundCheck* GoldenDifference::worst_bound() const { return worst(bounds); }
 
 GoldenDifference compare(const Golden& golden, const GoldenRun& run, bool other_engine, const GoldenRun* halved) {
   return Comparison(golden, run, other_engine, halved).made();

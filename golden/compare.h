@@ -43,10 +43,12 @@ struct GoldenDifference {
   std::vector<std::string> findings;
   std::vector<ColumnCheck> columns;  ///< columns of both runs with finite values, in the order of the golden
   std::vector<NumberCheck> numbers;
+  std::vector<BoundCheck> bounds = {};  ///< those of the run, which compare() leaves out
 
   [[nodiscard]] bool passed() const;
   [[nodiscard]] const ColumnCheck* worst_column() const;  ///< column with the largest ratio, or null without columns
   [[nodiscard]] const NumberCheck* worst_number() const;
+  [[nodiscard]] const BoundCheck* worst_bound() const;
 };
 
 /// Compares a run with the golden: first the columns and the times of the rows, then the values over the common rows, then the

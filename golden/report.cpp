@@ -80,6 +80,13 @@ std::string table(const Checks<NumberCheck>& numbers) {
   return aligned(rows, 2);
 }
 
+std::string sentence(const BoundCheck& bound) {
+  const std::string log = bound.log.empty() ? "the log" : "log " + in_quotes(bound.log);
+  if (std::isnan(bound.value)) return fmt::format("{} is not known: the run covers fewer than two rows of {}", bound.name, log);
+  return fmt::format("{} is {}, its bound {} ({})", bound.name, with_its_unit(bound.value, 6, bound.unit),
+                     with_its_unit(bound.most, 6, bound.unit), log);
+}
+
 /// Number that represents all numbers next to a table of columns: the distance, or else the worst number. Null if all numbers
 /// are within their bands.
 const NumberCheck* first_number(const Checks<NumberCheck>& numbers) {
@@ -182,9 +189,12 @@ std::string band_changes(const Golden& before, const Golden& now, const std::vec
 std::size_t strayed_columns(const GoldenDifference& difference) { return strayed(difference.columns).size(); }
 
 std::string outside(const GoldenDifference& d) {
+  const std::size_t beyond = strayed(d.bounds).size();
+  const std::string bounds = beyond == 0 ? "" : fmt::format("{} of {} exceeded", beyond, plural(d.bounds.size(), "bound"));
+  if (d.columns.empty() && d.numbers.empty() && d.findings.empty() && beyond > 0) return bounds;
   return fmt::format("{} of {} and {} of {} outside their bands", strayed(d.columns).size(), plural(d.columns.size(), "column"),
                      strayed(d.numbers).size(), plural(d.numbers.size(), "number")) +
-         (d.findings.empty() ? "" : ", and other differences");
+         (bounds.empty() ? "" : ", " + bounds) + (d.findings.empty() ? "" : ", and other differences");
 }
 
 std::string differences(const GoldenDifference& difference, Shown shown) {
@@ -193,6 +203,7 @@ std::string differences(const GoldenDifference& difference, Shown shown) {
   std::string text;
   for (std::size_t i = 0; i < told; ++i) text += "  " + findings[i] + "\n";
   if (told < findings.size()) text += fmt::format("  ... and {} more like these\n", findings.size() - told);
+  for (const BoundCheck* bound : strayed(difference.bounds)) text += "  " + sentence(*bound) + "\n";
   switch (shown) {
     case Shown::brief:
       return text + brief(difference);

@@ -21,7 +21,7 @@
 #include "core/simulation/simulation.h"
 #include "golden/natural_scales.h"
 #include "golden/starts.h"
-#include "report/verdict/numbers/numbers.h"
+#include "report/verdict/numbers/quantities.h"
 #include "report/verdict/verdict.h"
 
 namespace gaitlab::golden {
@@ -80,6 +80,19 @@ std::vector<GoldenNumber> numbers(const Scenario& scenario, const Recording& rec
   return all;
 }
 
+std::vector<BoundCheck> bounds(const Scenario& scenario, const report::RunData& run) {
+  const MeasuredBounds& bound = scenario.measured.bound;
+  std::vector<BoundCheck> all;
+  for (std::size_t i = 0; i < bound.most.size(); ++i) {
+    if (!bound.stated(i)) continue;
+    const MeasuredBounds::Number& number = MeasuredBounds::numbers()[i];
+    const std::string name = "measured." + number.key;
+    const auto quantity = std::ranges::find(report::quantities(), name, &report::SummaryQuantity::name);
+    all.push_back({name, number.unit, scenario.measured.path, quantity->value(run), bound.most[i]});
+  }
+  return all;
+}
+
 GoldenRun golden_run(const Scenario& scenario, const std::function<void(double)>& progress, bool judged) {
   Simulation simulation({&scenario, 1}, judged ? Loads::recorded : Loads::left_out);
   simulation.run(progress);
@@ -88,8 +101,9 @@ GoldenRun golden_run(const Scenario& scenario, const std::function<void(double)>
   run.natural = natural_scales(scenario, run.trace.columns);
   for (const Joint& joint : scenario.robot->joints) run.joints.push_back(joint.name);
   if (!judged) return run;
-  const report::Verdict verdict =
-      report::verdict(scenario, record, report::summarise(scenario, record, 0), report::overlaps(scenario, record));
+  const report::Summary summary = report::summarise(scenario, record, 0);
+  run.bounds = bounds(scenario, {scenario, record, summary});
+  const report::Verdict verdict = report::verdict(scenario, record, summary, report::overlaps(scenario, record));
   run.verdict = verdict.word;
   run.why = verdict.why();
   return run;

@@ -61,6 +61,11 @@ GoldenRun mean_of(std::span<const GoldenRun> runs) {
     for (const GoldenRun& run : runs) squares += std::pow(run.numbers[i].value - sum / count, 2);
     mean.numbers[i].deviation = std::sqrt(squares / (count - 1));
   }
+  for (std::size_t i = 0; i < mean.bounds.size(); ++i) {
+    double sum = 0;
+    for (const GoldenRun& run : runs) sum += run.bounds[i].value;
+    mean.bounds[i].value = sum / count;
+  }
   return mean;
 }
 

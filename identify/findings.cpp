@@ -81,6 +81,9 @@ class Findings {
     if (!any_has(logs_, {Logged::duty, Logged::voltage, Logged::current, Logged::torque}) && fitted("actuator.stall_torque"))
       add("no log has a duty, a voltage, a current or a torque: stall_torque is right only as far as the controller's gain is, "
           "because their product moves the joint");
+    if (!logs_[0].freed.empty() && (fitted("actuator.stall_torque") || fitted("actuator.no_load_speed")))
+      add("no log has a current: currents and their checks rest on the efficiency of the bench. Its stall current does not "
+          "follow from these logs");
     const auto fits = [](const BenchLog& log) { return !log.held_out; };
     const bool free = std::ranges::any_of(logs_, [&](const BenchLog& log) { return fits(log) && swings_free(log); });
     if (!free && fitted("actuator.viscous_friction"))

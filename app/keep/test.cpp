@@ -45,12 +45,15 @@ std::string row(const std::vector<std::size_t>& widths, const std::vector<std::s
 
 std::vector<std::string> cells(const GoldenCase& c) {
   const ColumnCheck* column = c.difference.worst_column();
-  const NumberCheck* number = c.difference.worst_number();
+  std::pair<std::string, std::string> number{"-", "-"};
+  if (const NumberCheck* worst = c.difference.worst_number(); worst != nullptr) number = {worst->label, bands(worst->ratio())};
+  const BoundCheck* bound = c.difference.worst_bound();
+  if (bound != nullptr && (number.first == "-" || !bound->passed())) number = {bound->name, bands(bound->ratio())};
   return {c.file,
           column == nullptr ? "-" : column->label,
           column == nullptr ? "-" : bands(column->ratio()),
-          number == nullptr ? "-" : number->label,
-          number == nullptr ? "-" : bands(number->ratio()),
+          number.first,
+          number.second,
           to_string(c.verdict)};
 }
 
@@ -205,6 +208,7 @@ class Figures {
 
 /// Message about a failed case: changes, largest deviations, and the files with further data.
 std::string failure(const GoldenCase& c, bool all) {
+  if (!c.golden) return differences(c.difference, Shown::strayed);
   const GoldenProvenance now = golden_origin(*c.scenario);
   const std::string changes = origin_changes(c.golden->origin, now, all ? kAllSettings : kFewSettings);
   std::string text = since_approval(*c.golden) + (changes.empty() ? "  build and scenario are the same\n" : changes) +
@@ -222,7 +226,7 @@ std::string failure(const GoldenCase& c, bool all) {
 /// Prints notes on cases that passed: numbers with wide bands, a changed verdict, and a changed resolved scenario.
 void print_notes(const std::vector<GoldenCase>& cases) {
   for (const GoldenCase& c : cases) {
-    if (c.verdict != CaseVerdict::passed) continue;
+    if (c.verdict != CaseVerdict::passed || !c.golden) continue;
     if (const std::string names = wide_number_names(*c.golden); !names.empty()) {
       say(c.file, "note",
           fmt::format("numbers with bands above {}, which hide smaller changes: {}", percent(kWideNumber), names));

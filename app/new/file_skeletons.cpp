@@ -109,13 +109,14 @@ actuator: @ACTUATOR@   # u_max: the supply, V
 controller: @CONTROLLER@   # a column controller.P in a table of logs has the gain of each log
 
 # The goals are replayed, and the angles compared. `identify` puts each log in place of log.csv.
-cpg: {type: table, model: {file: log.csv, time: t, columns: [{joint: 0, column: goal}], interpolation: linear, repeat: false}}
+cpg: {type: table, model: {file: log.csv, time: t, columns: {m0/hinge: goal}, interpolation: linear, repeat: false}}
 measured:
   file: log.csv
   time: t                              # s
   # "on": on                           # column that is 0 while the servo has no torque
   columns:
-    m0/hinge: {angle: angle}           # rad, in the direction of the goals; also speed, duty, voltage, current, torque
+    # In rad and SI units, or {column: NAME, scale: NUMBER FOR 1}; also speed, duty, voltage, current, torque.
+    m0/hinge: {angle: angle}
 
 trace: {period: 0.002, columns: [t, joint.*]}
 duration: 10                           # s; identify takes the length of each log

@@ -52,6 +52,19 @@ enum class NamedValues { texts, texts_or_numbers };
 
 class Fields;
 
+/// A column of a log: value = number in the column / scale.
+struct LogColumn {
+  std::string name = {};  ///< "" for none
+  double scale = 1;
+  void fields(Fields& f);
+};
+
+/// A joint, by its number, and its column of a log.
+struct JointColumn {
+  std::int64_t joint = -1;  ///< -1 for a joint that does not exist, which the reader has reported
+  LogColumn column = {};
+};
+
 /// Types of fields. Each has a reference to the value, and its limits. Keys, names and sentences must be string literals or
 /// outlive the visit, because their addresses are kept.
 namespace field {
@@ -158,6 +171,14 @@ struct Map {
   std::vector<Named>& value;
   NamedValues kind;
 };
+/// A column of a log. In YAML its name, or {column: NAME, scale: NUMBER}.
+struct Column {
+  LogColumn& value;
+};
+/// Columns of a log by joint, a map with the names or numbers of joints as its keys. No joint occurs twice.
+struct Columns {
+  std::vector<JointColumn>& value;
+};
 /// A list of structs that each have `void fields(Fields&)`, or a map of such structs by name.
 struct List {
   void* self;
@@ -185,7 +206,7 @@ struct Other {
   const char* preset = "";  ///< default as JSON
 };
 using Value = std::variant<Number, NumberOr, Integer, Flag, Text, File, OneOf, EachJoint, Joint, Vector, Numbers, Rows, Texts,
-                           Names, Periods, Map, List, RuleOrList, Group, Other>;
+                           Names, Periods, Map, Column, Columns, List, RuleOrList, Group, Other>;
 }  // namespace field
 
 using field::Among;
@@ -293,6 +314,10 @@ class Fields {
   void named(const char* key, std::vector<Named>& value, NamedValues kind, const char* about) {
     visit({key, about, field::Map{value, kind}});
   }
+  void column(const char* key, LogColumn& value, const char* about) { visit({key, about, field::Column{value}}); }
+  void columns(const char* key, std::vector<JointColumn>& value, const char* about) {
+    visit({key, about, field::Columns{value}});
+  }
   template <class T>
   void list(const char* key, std::vector<T>& value, const char* about) {
     visit({key, about, list_of(value)});
@@ -351,5 +376,12 @@ class Marked final : public Fields {
   const char* word_;
   bool* is_word_;
 };
+
+inline void LogColumn::fields(Fields& f) {
+  Marked(f, Need::required).text("column", name, "Name of the column.");
+  f.number("scale", scale,
+           {"", -1e9, 1e9, "Number in the column for a value of 1, such as 885 for a PWM of 885 at full duty; not 0."});
+  if (scale == 0) f.problem("scale", "scale is 0; expected the number in the column for a value of 1");
+}
 
 }  // namespace gaitlab

@@ -1,32 +1,19 @@
 #include "core/recording/run_files.h"
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <string>
-#include <string_view>
 #include <system_error>
 
 #include "core/errors.h"
 #include "core/files/atomic_file.h"
 #include "core/files/file_kind.h"
+#include "core/files/json_place.h"
 #include "core/files/shallow_json.h"
 #include "core/recording/csv.h"
 
 namespace gaitlab {
 
 namespace fs = std::filesystem;
-
-namespace {
-
-// Line and column of a byte. Bytes are counted from 1, as by nlohmann's parser.
-SourceLocation place_of(const fs::path& file, std::string_view text, std::size_t byte) {
-  const std::string_view before = text.substr(0, std::min(byte == 0 ? 0 : byte - 1, text.size()));
-  const std::size_t line_start = before.rfind('\n') + 1;  // npos + 1 is 0
-  return {file.string(), 1 + static_cast<int>(std::count(before.begin(), before.end(), '\n')),
-          1 + static_cast<int>(before.size() - line_start)};
-}
-
-}  // namespace
 
 fs::path trace_file(const fs::path& run) {
   const SourceLocation place{run.string()};
@@ -61,7 +48,7 @@ nlohmann::json read_summary(const fs::path& folder) {
       throw InputError(SourceLocation{file.string(), 1, 1}, "holds no JSON object: it is not a summary");
     return summary;
   } catch (const nlohmann::json::parse_error& error) {
-    throw InputError(place_of(file, text, error.byte), "is not JSON from here on: it is truncated or damaged");
+    throw InputError(json_place(file.string(), text, error.byte), "is not JSON from here on: it is truncated or damaged");
   } catch (const nlohmann::json::exception&) {  // a number is outside the range of a double
     throw InputError(SourceLocation{file.string()}, "holds a number that is outside the range of a double");
   }

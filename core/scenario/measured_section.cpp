@@ -22,23 +22,21 @@ namespace gaitlab {
 namespace {
 
 constexpr std::array<LoggedKind, kLoggedKinds> kKinds{
-    {{Logged::angle, "angle", "angle_scale", "angle", "rad", "Column of the joint's angle."},
-     {Logged::speed, "speed", "speed_scale", "speed", "rad/s", "Column of the joint's speed."},
-     {Logged::voltage, "voltage", "voltage_scale", "voltage", "V", "Column of the motor's voltage."},
-     {Logged::current, "current", "current_scale", "current", "A", "Column of the motor's current."},
-     {Logged::torque, "torque", "torque_scale", "torque", "N m", "Column of the torque on the joint."},
-     {Logged::duty, "duty", "duty_scale", "", "",
+    {{Logged::angle, "angle", "angle", "rad", "Column of the joint's angle."},
+     {Logged::speed, "speed", "speed", "rad/s", "Column of the joint's speed."},
+     {Logged::voltage, "voltage", "voltage", "V", "Column of the motor's voltage."},
+     {Logged::current, "current", "current", "A", "Column of the motor's current."},
+     {Logged::torque, "torque", "torque", "N m", "Column of the torque on the joint."},
+     {Logged::duty, "duty", "", "",
       "Column of the share of the supply that the servo gives to its motor; only the time at its limit, 1, is compared."}}};
-
-constexpr Spec kScale{"", -1e9, 1e9,
-                      "Number in that column for 1 in SI units, such as 885 for a PWM of 885 at full duty; not 0."};
 
 /// Place of `columns.JOINT.KEY` of the section, or else of the nearest key above it.
 SourceLocation place_in(const Node& section, const std::string& joint, const char* key) {
   const Node* const columns = section.find("columns");
   const Node* const of_joint = columns == nullptr ? nullptr : columns->find(joint);
   const Node* const value = of_joint == nullptr ? nullptr : of_joint->find(key);
-  for (const Node* const node : {value, of_joint, columns}) {
+  const Node* const name = value == nullptr ? nullptr : value->find("column");
+  for (const Node* const node : {name, value, of_joint, columns}) {
     if (node != nullptr) return node->place;
   }
   return section.place;
@@ -53,19 +51,14 @@ class LogReader {
   MeasuredLog read() {
     MeasuredLog log;
     log.t = times();
-    log.on = column(scenario_.measured.on, place_of("on"));
+    log.on = column({scenario_.measured.on}, place_of("on"));
     for (const LoggedJoint& columns : scenario_.measured.columns) {
       const std::optional<std::size_t> joint = joint_of(columns);
       if (!joint) continue;
       MeasuredLog::OfJoint& of = log.joints.emplace_back(MeasuredLog::OfJoint{*joint, {}});
       for (const LoggedKind& kind : kKinds) {
         const auto k = static_cast<std::size_t>(kind.kind);
-        const SourceLocation place = place_in(section_, columns.name, kind.key);
-        of.values[k] = column(columns.columns[k], place);
-        if (columns.scales[k] == 0)
-          problems_.add(place_in(section_, columns.name, kind.scale_key),
-                        fmt::format("{} is 0; expected the number in the log for 1", kind.scale_key));
-        for (double& value : of.values[k]) value /= columns.scales[k];
+        of.values[k] = column(columns.columns[k], place_in(section_, columns.name, kind.key));
       }
     }
     return log;
@@ -73,7 +66,7 @@ class LogReader {
 
  private:
   std::vector<double> times() {
-    std::vector<double> t = column(scenario_.measured.time, place_of("time"));
+    std::vector<double> t = column({scenario_.measured.time}, place_of("time"));
     if (t.empty() && table_.rows() > 0) return t;  // there is no such column, which is a problem by now
     if (t.size() < 2) throw std::invalid_argument(fmt::format("the log has {}; expected at least 2", counted(t.size(), "row")));
     for (std::size_t k = 1; k < t.size(); ++k) {
@@ -89,11 +82,12 @@ class LogReader {
     return stated == nullptr ? section_.place : stated->place;
   }
 
-  /// Numbers of a column; none for "".
-  std::vector<double> column(const std::string& name, const SourceLocation& place) {
-    if (name.empty()) return {};
-    if (table_.has(name)) return table_.column(name);
-    problems_.add(place, fmt::format("the log has no column {}{}", in_quotes(name), offer(name, table_.names(), "columns")));
+  /// Values of a column; none for the name "".
+  std::vector<double> column(const LogColumn& of, const SourceLocation& place) {
+    if (of.name.empty()) return {};
+    if (table_.has(of.name)) return table_.column(of.name, of.scale);
+    problems_.add(place,
+                  fmt::format("the log has no column {}{}", in_quotes(of.name), offer(of.name, table_.names(), "columns")));
     return {};
   }
 
@@ -106,7 +100,9 @@ class LogReader {
       return {};
     }
     const std::size_t joint = joints_of(columns.name, names).front();
-    const auto stated = [&](const LoggedKind& kind) { return !columns.columns[static_cast<std::size_t>(kind.kind)].empty(); };
+    const auto stated = [&](const LoggedKind& kind) {
+      return !columns.columns[static_cast<std::size_t>(kind.kind)].name.empty();
+    };
     if (std::ranges::none_of(kKinds, stated)) {
       problems_.add(place,
                     fmt::format("no column of joint {} is stated; expected angle, speed, voltage, current, torque or duty",
@@ -129,6 +125,20 @@ class LogReader {
   Problems& problems_;
   CsvTable table_;
 };
+
+/// Adds a problem for each bound of a quantity that the log does not have.
+void check_bounds(const Node& section, const MeasuredBounds& bounds, const MeasuredLog& log, Problems& problems) {
+  for (std::size_t i = 0; i < bounds.most.size(); ++i) {
+    const MeasuredBounds::Number& number = MeasuredBounds::numbers()[i];
+    const auto logged = [&](const MeasuredLog::OfJoint& joint) { return !joint.of(number.of).empty(); };
+    if (!bounds.stated(i) || std::ranges::any_of(log.joints, logged)) continue;
+    const Node* const stated = section.find("bound");
+    const Node* const value = stated == nullptr ? nullptr : stated->find(number.key);
+    problems.add(value == nullptr ? section.place : value->place,
+                 fmt::format("bound has {}, but no joint has a column for {}", number.key,
+                             kKinds[static_cast<std::size_t>(number.of)].key));
+  }
+}
 
 void set_places(Node& node, const SourceLocation& place) {
   node.place = place;
@@ -168,17 +178,40 @@ double MeasuredLog::at(const std::vector<double>& values, double time) const {
   return values[row] + (values[row + 1] - values[row]) * (time - t[row]) / (t[row + 1] - t[row]);
 }
 
+const std::vector<MeasuredBounds::Number>& MeasuredBounds::numbers() {
+  static const std::vector<Number> kAll = [] {
+    std::vector<Number> all;
+    for (const LoggedKind& kind : kKinds) {
+      if (*kind.column == '\0') continue;
+      for (const char* number : kErrorNumbers) all.push_back({fmt::format("{}.{}", kind.key, number), kind.unit, kind.kind});
+    }
+    for (const char* number : kLimitNumbers) all.push_back({number, "", Logged::duty});
+    return all;
+  }();
+  return kAll;
+}
+
+bool MeasuredBounds::any() const {
+  return std::ranges::any_of(most, [](double one) { return one != kNotStated; });
+}
+
+void MeasuredBounds::fields(Fields& f) {
+  for (std::size_t i = 0; i < most.size(); ++i) {
+    const Number& number = numbers()[i];
+    if (!brief || stated(i))
+      Marked(f, Need::optional).number(number.key.c_str(), most[i], {number.unit, 0, 1e9, "Largest value that passes."});
+  }
+}
+
 void LoggedJoint::fields(Fields& f) {
   for (const LoggedKind& kind : kKinds) {
     const auto k = static_cast<std::size_t>(kind.kind);
-    if (brief && columns[k].empty()) continue;
-    Marked(f, Need::optional).text(kind.key, columns[k], kind.about);
-    if (!brief || scales[k] != 1) f.number(kind.scale_key, scales[k], kScale);
+    if (!brief || !columns[k].name.empty()) Marked(f, Need::optional).column(kind.key, columns[k], kind.about);
   }
 }
 
 void MeasuredSettings::fields(Fields& f) {
-  f.file("file", file, "The log: a CSV with a line of names, then a line per row; required.");
+  f.file("file", file, "The log: a CSV with a line of names, then a line per row, or JSON with a list `entries`; required.");
   f.text("time", time, "Column of the times, s, which rise; the first is the start of the run.");
   if (!brief || !on.empty()) {
     Marked(f, Need::optional)
@@ -187,7 +220,12 @@ void MeasuredSettings::fields(Fields& f) {
   if (!brief || !source.empty())
     Marked(f, Need::optional).text("source", source, "Origin and licence of the log, which page and verdict cite.");
   for (LoggedJoint& joint : columns) joint.brief = brief;
-  f.by_name("columns", columns, "{angle: COLUMN}", "Columns of each joint that was measured, by its name; required.");
+  bound.brief = brief;
+  if (!brief || bound.any())
+    f.group("bound", bound, "Bounds of the numbers `measured.*` of a run, which `gaitlab test` judges like a golden.");
+  f.by_name(
+      "columns", columns, "{angle: COLUMN}",
+      "Columns of each joint that was measured, by its name; required. Scale: the number in the column for 1 in SI units.");
 }
 
 bool MeasuredSettings::reads(const std::string& column) const {
@@ -202,17 +240,20 @@ bool MeasuredSettings::reads(const std::string& column) const {
 void finish_measured(const Node& node, Scenario& scenario, Problems& problems) {
   if (node.kind != Node::Kind::map || !scenario.robot) return;
   const Node* const file = node.find("file");
-  if (file == nullptr) problems.add(node.place, "measured has no file; expected the CSV of the log");
+  const bool path = file != nullptr && file->text.find('\n') == std::string::npos;
+  scenario.measured.path = path ? file->text : "";
+  if (file == nullptr) problems.add(node.place, "measured has no file; expected the CSV or JSON of the log");
   if (node.find("columns") == nullptr) problems.add(node.place, "measured has no columns; expected {JOINT: {angle: COLUMN}}");
   if (file == nullptr || scenario.measured.columns.empty()) return;
   const std::size_t before = problems.size();
   try {
     MeasuredLog log = LogReader(node, scenario, problems).read();
+    check_bounds(node, scenario.measured.bound, log, problems);
     if (problems.size() == before) scenario.measured.log = std::make_shared<const MeasuredLog>(std::move(log));
   } catch (const std::invalid_argument& error) {
-    const bool path = file->text.find('\n') == std::string::npos;
-    problems.add(file->place, path ? fmt::format("log {}, {}", in_quotes(file->text), error.what())
-                                   : fmt::format("the log's {}", error.what()));
+    problems.add(file->place, path                      ? fmt::format("log {}, {}", in_quotes(file->text), error.what())
+                              : has_place(error.what()) ? fmt::format("the log's {}", error.what())
+                                                        : error.what());
   }
 }
 

@@ -20,19 +20,38 @@ inline constexpr const char* kMeasuredSection = "measured";
 enum class Logged : std::size_t { angle, speed, voltage, current, torque, duty };
 inline constexpr std::size_t kLoggedKinds = 6;
 
-/// The names of a quantity: its key, the key of its scale, and the column joint.N.COLUMN of a trace ("" for none).
+/// The names of a quantity: its key, and the column joint.N.COLUMN of a trace ("" for none).
 struct LoggedKind {
   Logged kind;
-  const char *key, *scale_key, *column, *unit, *about;
+  const char *key, *column, *unit, *about;
 };
 std::span<const LoggedKind, kLoggedKinds> logged_kinds();
 
-/// Columns of a log for one joint. Value of a quantity = number in the column / scale.
+/// The numbers measured.QUANTITY.NUMBER of the difference between run and log, and the numbers measured.NUMBER of both. A
+/// quantity without a trace column has none.
+inline constexpr std::array kErrorNumbers{"mae", "rms", "peak"};
+inline constexpr std::array kLimitNumbers{"limit.simulated", "limit.logged"};
+
+/// Bounds of these numbers, which `gaitlab test` judges.
+struct MeasuredBounds {
+  struct Number {
+    std::string key;  ///< such as angle.mae
+    const char* unit;
+    Logged of;  ///< quantity that the log must have
+  };
+  static const std::vector<Number>& numbers();
+  std::vector<double> most = std::vector<double>(numbers().size(), kNotStated);  ///< by number
+  bool brief = false;                                                            ///< as LoggedJoint::brief
+  [[nodiscard]] bool stated(std::size_t number) const { return most[number] != kNotStated; }
+  [[nodiscard]] bool any() const;
+  void fields(Fields& f);
+};
+
+/// Columns of a log for one joint.
 struct LoggedJoint {
-  std::string name;                               ///< name of the joint
-  std::array<std::string, kLoggedKinds> columns;  ///< "" for a quantity that was not measured
-  std::array<double, kLoggedKinds> scales{1, 1, 1, 1, 1, 1};
-  bool brief = false;  ///< true to visit only the keys that are stated; for writing
+  std::string name;                             ///< name of the joint
+  std::array<LogColumn, kLoggedKinds> columns;  ///< without a name for a quantity that was not measured
+  bool brief = false;                           ///< true to visit only the keys that are stated; for writing
   void fields(Fields& f);
 };
 
@@ -50,11 +69,13 @@ struct MeasuredLog {
 };
 
 struct MeasuredSettings {
-  std::string file;        ///< text of the CSV
+  std::string file;        ///< text of the log (CsvTable)
   std::string time = "t";  ///< name of the column of times, s
   std::string on;          ///< name of the column that is 0 while the motors have no torque; "" for none
   std::string source;      ///< origin and licence of the log; "" if not stated
-  bool brief = false;      ///< as LoggedJoint::brief
+  std::string path;        ///< name of the file, if it is not given as text
+  MeasuredBounds bound;
+  bool brief = false;  ///< as LoggedJoint::brief
   std::vector<LoggedJoint> columns;
   std::shared_ptr<const MeasuredLog> log;  ///< null without the section
   [[nodiscard]] bool any() const { return log != nullptr; }

@@ -6,6 +6,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "core/files/json_place.h"
 #include "core/scenario/sections.h"
 #include "core/settings/reader.h"
 #include "core/settings/text_file.h"
@@ -68,14 +69,6 @@ struct WrenchFields {
   }
 };
 
-/// Line and column (in bytes, from 1) of the byte before `end`, where nlohmann's parser stopped.
-SourceLocation place_of(const std::string& text, std::size_t end, const std::string& file) {
-  const std::string before = text.substr(0, std::min(end == 0 ? 0 : end - 1, text.size()));
-  const std::size_t line_start = before.rfind('\n') + 1;  // npos + 1 is 0
-  return {file, 1 + static_cast<int>(std::count(before.begin(), before.end(), '\n')),
-          1 + static_cast<int>(before.size() - line_start)};
-}
-
 /// Parses a JSON text. nlohmann's parser checks that the text is JSON. The YAML parser, which accepts JSON, then gives the
 /// places.
 Node parse_json(std::string text, const std::string& file) {
@@ -86,7 +79,7 @@ Node parse_json(std::string text, const std::string& file) {
     // value - unexpected ...
     const std::string what = e.what();
     const std::size_t dash = what.find(" - ");
-    throw InputError(place_of(text, e.byte, file),
+    throw InputError(json_place(file, text, e.byte),
                      "not valid JSON" + (dash == std::string::npos ? "" : ": " + clipped(what.substr(dash + 3))));
   } catch (const nlohmann::json::out_of_range&) {
     // A number exceeds the range of a double. The problem is reported with its place when the number is read.

@@ -7,6 +7,8 @@
 namespace gaitlab {
 namespace {
 
+constexpr const char* kColumn = "column | {column, scale}";
+
 std::string list_text(std::span<const double> values) {
   std::string out;
   for (const double value : values) out += (out.empty() ? "" : ", ") + number_text(value);
@@ -176,6 +178,12 @@ void Explainer::on(const char* key, const char* about, const field::Map& field) 
   for (const Named& value : field.value) names += (names.empty() ? "" : ", ") + value.name;
   row(key, "", names.empty() ? "{}" : names, field.kind == NamedValues::texts ? "NAME: text" : "NAME: text | number, per joint",
       about);
+}
+
+void Explainer::on(const char* key, const char* about, const field::Column&) { row(key, "", "", kColumn, about); }
+
+void Explainer::on(const char* key, const char* about, const field::Columns& field) {
+  row(key + std::string(".JOINT"), "", field.value.empty() ? "{}" : "", kColumn, about);
 }
 
 void Explainer::elements(const char* key, const field::List& list) {

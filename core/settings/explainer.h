@@ -50,6 +50,8 @@ class Explainer final : public Fields {
   void on(const char* key, const char* about, const field::Names& field);
   void on(const char* key, const char* about, const field::Periods& field);
   void on(const char* key, const char* about, const field::Map& field);
+  void on(const char* key, const char* about, const field::Column& field);
+  void on(const char* key, const char* about, const field::Columns& field);
   void on(const char* key, const char* about, const field::List& field);
   void on(const char* key, const char* about, const field::RuleOrList& field);
   void on(const char* key, const char* about, const field::Group& field);

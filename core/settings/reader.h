@@ -81,6 +81,8 @@ class Reader final : public Fields {
   void on(const char* key, const field::Names& field);
   void on(const char* key, const field::Periods& field);
   void on(const char* key, const field::Map& field);
+  void on(const char* key, const field::Column& field);
+  void on(const char* key, const field::Columns& field);
   void on(const char* key, const field::List& field);
   void on(const char* key, const field::RuleOrList& field);
   void on(const char* key, const field::Group& field);
@@ -115,6 +117,9 @@ class Reader final : public Fields {
   bool read_joint_map(const Node& node, const std::string& key, const Spec& spec, PerJoint& value, Parts of);
   void read_named(const Node& node, const std::string& what, NamedValues kind, Named& value);
   void read_named_numbers(const Node& node, const std::string& what, PerJoint& value);
+  void read_column(const Node& node, const std::string& what, LogColumn& value);
+  /// Number of a joint by its name or number, or -1 with a problem that calls it `what` if the robot has no such joint.
+  std::int64_t read_joint(const Node& node, const std::string& what);
   /// Number of a part by its name, or -1 with a problem if the name is unknown.
   std::int64_t number_of(const std::string& name, const SourceLocation& place, Parts of);
 

@@ -145,15 +145,55 @@ void Reader::on(const char* key, const field::Joint& field) {
     problems_.add(node->place, fmt::format("{} is {}; expected a joint's name or number", key, found(*node)));
     return;
   }
-  const Reading<std::int64_t> number = read_integer(*node);
-  if (!number.ok()) {
-    const std::int64_t named = number_of(node->text, node->place, joints());
-    if (named >= 0) field.value = named;
-  } else if (joints_ == nullptr || (number.value >= 0 && static_cast<std::size_t>(number.value) < joints_->size())) {
-    field.value = number.value;
+  if (const std::int64_t joint = read_joint(*node, key); joint >= 0) field.value = joint;
+}
+
+std::int64_t Reader::read_joint(const Node& node, const std::string& what) {
+  const Reading<std::int64_t> number = read_integer(node);
+  if (!number.ok()) return number_of(node.text, node.place, joints());
+  if (joints_ == nullptr || (number.value >= 0 && static_cast<std::size_t>(number.value) < joints_->size()))
+    return number.value;
+  problems_.add(node.place, fmt::format("{} is {}; the robot has {}, numbered from 0", what, number.value,
+                                        counted(joints_->size(), "joint")));
+  return -1;
+}
+
+void Reader::on(const char* key, const field::Column& field) {
+  if (const Node* node = take(key)) read_column(*node, key, field.value);
+}
+
+void Reader::on(const char* key, const field::Columns& field) {
+  const Node* node = take(key);
+  if (node == nullptr) return;
+  if (node->kind != Node::Kind::map) {
+    problems_.add(node->place, fmt::format("{} is {}; expected a map JOINT: COLUMN", key, found(*node)));
+    return;
+  }
+  std::vector<JointColumn> read;
+  for (std::size_t i = 0; i < node->keys.size(); ++i) {
+    const auto& [name, place] = node->keys[i];
+    Node joint{Node::Kind::scalar, place};
+    joint.text = name;
+    JointColumn one{read_joint(joint, "joint")};
+    if (one.joint >= 0 && std::ranges::find(read, one.joint, &JointColumn::joint) != read.end())
+      problems_.add(place, fmt::format("joint {} has a column already", in_quotes(name)));
+    read_column(node->items[i], fmt::format("{} of {}", key, in_quotes(name)), one.column);
+    read.push_back(std::move(one));
+  }
+  field.value = std::move(read);
+}
+
+void Reader::read_column(const Node& node, const std::string& what, LogColumn& value) {
+  value = {};
+  if (node.kind == Node::Kind::map) {
+    Reader reader(node, what, problems_, joints_, folder_);
+    value.fields(reader);
+    reader.finish();
+  } else if (node.kind == Node::Kind::scalar) {
+    value.name = node.text;
   } else {
-    problems_.add(node->place, fmt::format("{} is {}; the robot has {}, numbered from 0", key, number.value,
-                                           counted(joints_->size(), "joint")));
+    problems_.add(node.place, fmt::format("{} is {}; expected the name of a column, or {{column: NAME, scale: NUMBER}}", what,
+                                          found(node)));
   }
 }
 

@@ -175,6 +175,25 @@ void SchemaFields::on(const char* key, const char* about, const field::Map& fiel
                             std::move(map));
 }
 
+namespace {
+
+Json column_schema() {
+  LogColumn column;
+  SchemaFields inner;
+  column.fields(inner);
+  return {{"anyOf", {scalar_schema(), inner.object()}}};
+}
+
+}  // namespace
+
+void SchemaFields::on(const char* key, const char* about, const field::Column&) {
+  properties_[key] = described(column_schema(), about);
+}
+
+void SchemaFields::on(const char* key, const char* about, const field::Columns&) {
+  properties_[key] = described({{"type", "object"}, {"additionalProperties", column_schema()}}, about);
+}
+
 void SchemaFields::on(const char* key, const char* about, const field::List& field) {
   const std::size_t size = field.size(field.self);
   if (size == 0) field.resize(field.self, 1);  // one element with its defaults, for the list of keys

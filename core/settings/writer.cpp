@@ -121,6 +121,32 @@ void Writer::on(const char* key, const field::Map& field) {
   add(key, std::move(node));
 }
 
+namespace {
+
+Node column_node(LogColumn& column) {
+  if (column.scale == 1) return text_node(column.name);
+  const std::vector<std::string> no_joints;
+  Writer writer(no_joints);
+  column.fields(writer);
+  Node node = writer.take();
+  node.flow = true;
+  return node;
+}
+
+}  // namespace
+
+void Writer::on(const char* key, const field::Column& field) { add(key, column_node(field.value)); }
+
+void Writer::on(const char* key, const field::Columns& field) {
+  Writer writer(joints_);
+  for (JointColumn& one : field.value) {
+    if (one.joint >= 0) writer.add(joints_[static_cast<std::size_t>(one.joint)], column_node(one.column));
+  }
+  Node node = writer.take();
+  node.flow = true;
+  add(key, std::move(node));
+}
+
 void Writer::on(const char* key, const field::List& field) {
   Node node{field.name == nullptr ? Node::Kind::list : Node::Kind::map};
   for (std::size_t i = 0; i < field.size(field.self); ++i) {

@@ -45,6 +45,8 @@ class Writer final : public Fields {
   void on(const char* key, const field::Names& field);
   void on(const char* key, const field::Periods& field);
   void on(const char* key, const field::Map& field);
+  void on(const char* key, const field::Column& field);
+  void on(const char* key, const field::Columns& field);
   void on(const char* key, const field::List& field);
   void on(const char* key, const field::RuleOrList& field);
   void on(const char* key, const field::Group& field);

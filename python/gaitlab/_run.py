@@ -36,6 +36,12 @@ class Run:
         return self._native.resolved()
 
     @property
+    def measured(self) -> Union[dict[str, float], None]:
+        """The numbers `measured.*` of the summary, such as `angle.mae`: how far the run is from its log, SI units; None without a log."""
+        found = self.summary.get("measured")
+        return None if found is None else {f"{of}.{name}": value for of, numbers in found.items() for name, value in numbers.items()}
+
+    @property
     def trace(self) -> Table:
         """The rows of trace.h5, one per trace.period."""
         return Table(self._native.table("trace"))

@@ -110,6 +110,16 @@ class Tables(unittest.TestCase):
         self.assertEqual(run.verdict["verdict"], whole.verdict["verdict"])
 
 
+    def test_measured(self):
+        log = {"file": "t,a\n0,0\n0.4,0\n", "columns": {"m0/active": {"angle": "a"}}}
+        run = gaitlab.run(caterpillar(measured=log))
+        angle = run.trace["joint.0.angle"][np.searchsorted(run.trace["t"], [0, 0.4 - 1e-9])]
+        self.assertEqual(sorted(run.measured), ["angle.mae", "angle.peak", "angle.rms"])
+        self.assertAlmostEqual(run.measured["angle.mae"], np.abs(angle).mean(), places=12)
+        self.assertEqual(run.measured["angle.peak"], run.summary["measured"]["angle"]["peak"])
+        self.assertIsNone(gaitlab.run(caterpillar(duration=0.1)).measured)
+
+
 class Ends(unittest.TestCase):
     def test_diverged_run_is_a_run(self):
         @gaitlab.cpg("test_diverges")

@@ -43,6 +43,16 @@ const std::string kSummaryB =
         "per_joint": {"m0/active": {"torque": {"peak": 9.5, "rms": 0.05}}, "m1/passive": {"torque": {"peak": 1.2, "rms": 0.5}}},
         "limit_cycle": {"found": true, "period": 4}, "stability": {"max": 0.2}, "trace_hash": "00000000000000bb"})";
 
+TEST_F(CompareCommand, DifferencesFromALog) {
+  make_run("a", "t\n0\n1\n", R"({"measured": {"angle": {"mae": 0.04, "peak": 0.125}, "limit": {"logged": 0.25}}})");
+  make_run("b", "t\n0\n1\n", R"({"measured": {"angle": {"mae": 0.02, "peak": 0.125}}})");
+  const std::string out = compare("a b").out;
+  for (const char* line : {"\nmeasured angle mae, rad                0.04               0.02  -50 %\n",
+                           "\nmeasured angle peak, rad              0.125              0.125  equal\n",
+                           "\nmeasured limit logged                  0.25                  -  differs\n"})
+    EXPECT_TRUE(contains(out, line)) << out;
+}
+
 TEST_F(CompareCommand, SettingsNumbersAndWorstColumns) {
   make_run("a", "t,joint.0.angle,joint.0.speed,base.x\n0,0,0,1\n0.5,1,0,2\n1,2,0,3\n", kSummaryA);
   make_run("b", "t,joint.0.angle,joint.0.speed,base.x\n0,0,0,1\n0.5,1.5,0,2\n1,2,0,3.25\n", kSummaryB);

@@ -30,8 +30,8 @@ ground: {{type: none}}
 contact: {{on: none}}
 actuator: {{type: servo, model: xl330-m288, u_max: {supply}}}
 controller: {{type: rc_servo, model: xl330-m288, P: {gain}, period: 0.001}}
-cpg: {{type: table, model: {{file: log.csv, time: t, columns: [{{joint: 0, column: goal}}], interpolation: linear, repeat: false}}}}
-measured: {{file: log.csv, columns: {{m0/hinge: {{angle: angle, duty: pwm, duty_scale: 885}}}}, "on": "on"}}
+cpg: {{type: table, model: {{file: log.csv, time: t, columns: {{0: goal}}, interpolation: linear, repeat: false}}}}
+measured: {{file: log.csv, columns: {{m0/hinge: {{angle: angle, duty: {{column: pwm, scale: 885}}}}}}, "on": "on"}}
 physics: {{engine: articulated, estimate: off}}
 duration: {duration}
 trace: {{period: 0.002, columns: [t, joint.*]}}

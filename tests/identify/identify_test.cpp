@@ -39,11 +39,10 @@ class Bench : public ::testing::Test {
     std::string table = "t,goal\n";
     for (int k = 0; k <= 200; ++k) table += fmt::format("{},{}\n", 0.01 * k, goal(0.01 * k, rate));
     folder_.write("goal.csv", table);
-    const Scenario servo =
-        read_scenario(folder_.write("true.yaml", text(kTorque, kDry) +
-                                                     "cpg: {type: table, model: {file: goal.csv, time: t, columns: [{joint: 0, "
-                                                     "column: goal}], interpolation: linear, repeat: false}}\n"),
-                      {"trace.period=0.01", fmt::format("controller.gain={}", gain)}, catalog());
+    const Scenario servo = read_scenario(
+        folder_.write("true.yaml", text(kTorque, kDry) + "cpg: {type: table, model: {file: goal.csv, time: t, columns: "
+                                                         "{m0/hinge: goal}, interpolation: linear, repeat: false}}\n"),
+        {"trace.period=0.01", fmt::format("controller.gain={}", gain)}, catalog());
     const Recording r = run(servo);
     const Table trace(r.trace);
     std::string log = "t,goal,angle\n";
@@ -58,7 +57,7 @@ class Bench : public ::testing::Test {
   void write_bench(double torque = 1.2, double dry = 0.05, const std::string& columns = "angle: angle") {
     folder_.write("bench.yaml",
                   text(torque, dry, ", stall_current: 1.3") +
-                      "cpg: {type: table, model: {file: log.csv, time: t, columns: [{joint: 0, column: goal}], interpolation: "
+                      "cpg: {type: table, model: {file: log.csv, time: t, columns: {m0/hinge: goal}, interpolation: "
                       "linear, repeat: false}}\nmeasured: {file: log.csv, columns: {m0/hinge: {" +
                       columns + "}}}\n");
   }
@@ -152,8 +151,8 @@ TEST_F(Bench, RefusesLogsThatNoServoRecorded) {
   };
   refused(57.3, "angle: angle", "which look like degrees");
   refused(1e-3, "angle: angle", "expected a motion");
-  refused(1, "angle: angle, duty: goal, duty_scale: 0.01", "the duty reaches 90");
-  refused(1, "angle: angle, current: goal, current_scale: 0.001", "mA have 1000 as scale");
+  refused(1, "angle: angle, duty: {column: goal, scale: 0.01}", "the duty reaches 90");
+  refused(1, "angle: angle, current: {column: goal, scale: 0.001}", "mA have 1000 as scale");
   refused(1, "angle: angle", "look like ticks", "t,goal,angle\n0,0,0\n0.1,0,300\n0.2,0,900\n");
   refused(1, "angle: angle", "at row 3", "t,goal,angle\n0,0,0\n0.1,0,0.01\n0.2,0,6\n0.3,0,6.1\n0.4,0,6.2\n");
   refused(1, "angle: angle", "times must rise", "t,goal,angle\n0,0,0\n0.1,0,1\n0.1,0,1\n");

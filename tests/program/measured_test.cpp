@@ -36,7 +36,7 @@ std::string log_text(double step, double start = 0, double off_at = 1e9) {
 
 std::string measured(const std::string& log, const std::string& keys = {}) {
   return "measured:\n  time: clock\n" + keys +
-         "  columns: {m0/swing: {angle: angle, duty: pwm, duty_scale: 885}}\n  file: |\n" + log;
+         "  columns: {m0/swing: {angle: angle, duty: {column: pwm, scale: 885}}}\n  file: |\n" + log;
 }
 
 TEST(Measured, ErrorsAreThoseOfTraceAndLog) {
@@ -139,7 +139,7 @@ TEST(Measured, TheCheckWarnsOfAnotherMotion) {
 TEST(Measured, ReplayGivesTheCommandsOfTheLog) {
   const std::string controller =
       "controller:\n  type: replay\n  period: 0.01\n  unit: duty\n  time: clock\n"
-      "  columns: [{joint: 0, column: pwm, scale: 885}]\n  file: |\n" +
+      "  columns: {0: {column: pwm, scale: 885}}\n  file: |\n" +
       log_text(0.004, 7);
   const Recording r = run(scenario(rod() + kBench + controller));
   const Table row(r.trace);
@@ -147,6 +147,34 @@ TEST(Measured, ReplayGivesTheCommandsOfTheLog) {
   EXPECT_NEAR(row(0.505, "joint.0.voltage_command"), 6 * 100.0 / 885, 1e-12);  // tick at 0.5 s, row at 0.5 s
   EXPECT_NEAR(row(0.515, "joint.0.voltage_command"), 6, 1e-12);                // tick at 0.51 s, row at 0.508 s
   EXPECT_NEAR(row(0.765, "joint.0.voltage_command"), 6 * 100.0 / 885, 1e-12);
+}
+
+TEST(Measured, AJsonOfARecorderIsTheSameLog) {
+  const std::string keys = "measured: {time: timestamp, 'on': torque_enable, columns: {m0/swing: {angle: position}}, file: ";
+  std::string json = "{\"mass\": 1, \"entries\": [";
+  std::string csv = "timestamp,position,torque_enable\n";
+  for (int k = 0; k < 5; ++k) {
+    json += fmt::format("{}{{\"timestamp\": {:.17g}, \"position\": {:.17g}, \"torque_enable\": {}}}", k == 0 ? "" : ", ",
+                        0.1 * k, std::sin(k), k < 3);
+    csv += fmt::format("{:.17g},{:.17g},{}\n", 0.1 * k, std::sin(k), k < 3 ? 1 : 0);
+  }
+  const Folder folder;
+  folder.write("log.json", json + "]}");
+  folder.write("log.csv", csv);
+  const auto read = [&](const std::string& name) {
+    return read_scenario(folder.write("s.yaml", rod() + kBench + kLoop + keys + name + "}\n"), {}, catalog());
+  };
+  const Scenario a = read("log.json");
+  const Scenario b = read("log.csv");
+  EXPECT_EQ(a.measured.log->t, b.measured.log->t);
+  EXPECT_EQ(a.measured.log->joints[0].values, b.measured.log->joints[0].values);
+  EXPECT_EQ(a.changes.size(), 1U);
+  EXPECT_EQ(resolved(scenario(resolved(a))), resolved(a));
+  folder.write("log.json",
+               "{\"entries\": [{\"timestamp\": 0, \"torque_enable\": 1, \"position\": 0}, {\"timestamp\": 0, "
+               "\"torque_enable\": 1, \"position\": 0}]}");
+  const std::string found = message_of([&] { read("log.json"); });
+  EXPECT_TRUE(contains(found, "log 'log.json', entry 2, key 'timestamp': times must rise")) << found;
 }
 
 TEST(Measured, RefusesALogWithItsPlace) {
@@ -157,7 +185,7 @@ TEST(Measured, RefusesALogWithItsPlace) {
     const std::string found = error("measured:\n" + section);
     EXPECT_TRUE(contains(found, text)) << found;
   };
-  refused(columns, "measured has no file; expected the CSV of the log");
+  refused(columns, "measured has no file; expected the CSV or JSON of the log");
   refused(log, "measured has no columns; expected {JOINT: {angle: COLUMN}}");
   refused(columns + "  file: none.csv\n", "none.csv");
   refused(columns + "  file: |\n    t,a\n    0,0\n    0,1\n", "the log's line 3, column 1: times must rise");
@@ -166,8 +194,14 @@ TEST(Measured, RefusesALogWithItsPlace) {
   refused("  columns: {m0/swing: {angle: b}}\n" + log, "the log has no column 'b'");
   refused("  columns: {m0/swing: {}}\n" + log, "no column of joint m0/swing is stated");
   refused("  columns: {m0/swim: {angle: a}}\n" + log, "no joint 'm0/swim'; did you mean 'm0/swing'?");
-  refused("  columns: {m0/swing: {angle: a, angle_scale: 0}}\n" + log, "angle_scale is 0");
+  refused("  columns: {m0/swing: {angle: {column: a, scale: 0}}}\n" + log, "scale is 0; expected the number in the column");
+  refused("  columns: {m0/swing: {angle: {scale: 2}}}\n" + log, "missing key 'column'");
+  refused("  columns: {m0/swing: {angle: [a]}}\n" + log,
+          "angle is a list; expected the name of a column, or {column: NAME, scale: NUMBER}");
   refused("  columns: {m0/swing: {angle: a, angel: b}}\n" + log, "unknown key 'angel'");
+  refused("  bound: {angle.mea: 1}\n" + columns + log, "unknown key 'angle.mea'; did you mean 'angle.mae'?");
+  refused("  bound: {angle.mae: -1}\n" + columns + log, "angle.mae is -1 rad; expected 0 to 1000000000 rad");
+  refused("  bound: {torque.rms: 1}\n" + columns + log, "bound has torque.rms, but no joint has a column for torque");
   refused("  time: time\n" + columns + log, "the log has no column 'time'; known columns: t, a");
 }
 

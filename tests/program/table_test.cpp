@@ -62,11 +62,17 @@ TEST_F(TableGait, TheResolvedScenarioHoldsTheText) {
 TEST_F(TableGait, ALogHasItsOwnClockAndColumns) {
   folder.write("gait.csv", kCsv);
   folder.write("log.csv", "clock,pwm,goal\n7.25,1,0.1\n7.55,2,0.5\n8.25,3,0.1\n");
-  const std::vector<double> log =
-      setpoints(read_with("{file: log.csv, time: clock, columns: [{joint: m0/passive, column: goal}]}"));
+  const std::vector<double> log = setpoints(read_with("{file: log.csv, time: clock, columns: {m0/passive: goal}}"));
   const std::vector<double> gait = setpoints(read_with("{file: gait.csv}"));
   ASSERT_EQ(log.size(), gait.size());
   for (std::size_t i = 0; i < log.size(); ++i) EXPECT_NEAR(log[i], gait[i], 1e-13);  // rounding of times from 7.25 s on
+}
+
+TEST_F(TableGait, AColumnHasAScale) {
+  folder.write("gait.csv", kCsv);
+  folder.write("log.csv", "t,ticks\n0,10\n0.3,50\n1,10\n");
+  EXPECT_EQ(setpoints(read_with("{file: log.csv, time: t, columns: {1: {column: ticks, scale: 100}}}")),
+            setpoints(read_with("{file: gait.csv}")));
 }
 
 TEST_F(TableGait, ErrorsNameLineAndColumn) {
@@ -79,10 +85,15 @@ TEST_F(TableGait, ErrorsNameLineAndColumn) {
   EXPECT_NE(error("time,0\n0,0\n0,0\n").find(at + "3, column 1: times must rise"), std::string::npos);
   EXPECT_NE(error("").find("table is empty"), std::string::npos);
   EXPECT_NE(error("time,0\n0,0\n1,1\n").find("the last frame differs from the first at joint m0/active"), std::string::npos);
-  EXPECT_NE(message_of([&] {
-              read_with("{file: gait.csv, columns: [{joint: m0/active, column: '0'}, {joint: 0, column: '0'}]}");
-            }).find("joint 'm0/active' has a column already"),
-            std::string::npos);
+  const auto refused = [&](const std::string& columns, const std::string& text) {
+    const std::string found = message_of([&] { read_with("{file: gait.csv, columns: " + columns + "}"); });
+    EXPECT_NE(found.find(text), std::string::npos) << found;
+  };
+  refused("{m0/active: '0', 0: '0'}", "s.yaml:6:53: error: joint '0' has a column already");
+  refused("{m0/activ: '0'}", "s.yaml:6:37: error: no joint 'm0/activ'; did you mean 'm0/active'?");
+  refused("{7: '0'}", "joint is 7; the robot has 2 joints, numbered from 0");
+  refused("[a]", "columns is a list; expected a map JOINT: COLUMN");
+  refused("{0: goal}", "there is no column 'goal'");
   EXPECT_THROW(read_with("{file: none.csv}"), InputError);
   EXPECT_THROW(read_with("{file: [1]}"), InputError);
 }

@@ -26,7 +26,7 @@ ground: {{type: none}}
 contact: {{"on": none}}
 actuator: {{type: servo, voltage: 5, stall_torque: {stall_torque}, no_load_speed: {no_load_speed}, u_max: 7.3{more}}}
 controller: {{type: rc_servo, unit: dynamixel_x, P: 400, latency: 0.007, period: 0.001}}
-cpg: {{type: table, model: {{file: log.csv, time: t, columns: [{{joint: 0, column: goal}}], interpolation: linear, repeat: false}}}}
+cpg: {{type: table, model: {{file: log.csv, time: t, columns: {{m0/hinge: goal}}, interpolation: linear, repeat: false}}}}
 {measured}physics: {{engine: articulated, estimate: off}}
 duration: 6
 trace: {{period: 0.001, columns: [t, joint.*]}}
@@ -91,7 +91,7 @@ def main():
             if made.returncode:
                 sys.exit(made.stderr)
             agreed = re.search(r"(\d+) of (\d+) starts", made.stdout)[0]
-            error = re.search(r"fitted logs +\d+ +(\S+) +(\S+)", made.stdout)[2]
+            error = re.search(r"fitted logs +\d+ +\S+ mrad +(\S+)", made.stdout)[1]
             line = []
             for key, value in servo.items():
                 row = re.search(rf"actuator\.{key} +(\S+) +(\S+) to (\S+)", made.stdout)

@@ -18,23 +18,22 @@ using R = const RunData&;
 using Share = std::optional<double> JointLogErrors::*;
 
 struct ErrorMeasure {
-  const char* key;
   double LogError::*number;
   const char* definition;
 };
-constexpr ErrorMeasure kMeasures[] = {{"mae", &LogError::mae, "Mean magnitude of simulated - measured"},
-                                      {"rms", &LogError::rms, "RMS of simulated - measured"},
-                                      {"peak", &LogError::peak, "Largest magnitude of simulated - measured"}};
+constexpr std::array<ErrorMeasure, kErrorNumbers.size()> kMeasures{
+    {{&LogError::mae, "Mean magnitude of simulated - measured"},
+     {&LogError::rms, "RMS of simulated - measured"},
+     {&LogError::peak, "Largest magnitude of simulated - measured"}}};
 
 struct LimitShare {
-  const char* key;
   Share share;
   const char* definition;
 };
-constexpr LimitShare kShares[] = {
-    {"limit.simulated", &JointLogErrors::at_limit,
-     "Share of the rows of the log in which the simulated motor gets its whole supply, whatever its current"},
-    {"limit.logged", &JointLogErrors::measured_at_limit, "Share of the rows of the log with a duty of at least 0.999"}};
+constexpr std::array<LimitShare, kLimitNumbers.size()> kShares{
+    {{&JointLogErrors::at_limit,
+      "Share of the rows of the log in which the simulated motor gets its whole supply, whatever its current"},
+     {&JointLogErrors::measured_at_limit, "Share of the rows of the log with a duty of at least 0.999"}}};
 
 Json known(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
 
@@ -54,7 +53,8 @@ std::vector<SummaryNumber> measured_numbers() {
                    .unit = unit,
                    .definition = text(definition + "; mean of all joints that the log has."),
                    .value = value,
-                   .if_known = true});
+                   .if_known = true,
+                   .compare = {static_cast<int>(260 + all.size())}});
     all.push_back({.key = text("per_joint.J.measured." + key),
                    .unit = unit,
                    .definition = text(definition + "."),
@@ -63,9 +63,10 @@ std::vector<SummaryNumber> measured_numbers() {
   };
   for (const LoggedKind& kind : logged_kinds()) {
     if (*kind.column == '\0') continue;
-    for (const ErrorMeasure& measure : kMeasures) {
+    for (std::size_t i = 0; i < kMeasures.size(); ++i) {
+      const ErrorMeasure& measure = kMeasures[i];
       add(
-          fmt::format("{}.{}", kind.key, measure.key), kind.unit,
+          fmt::format("{}.{}", kind.key, kErrorNumbers[i]), kind.unit,
           fmt::format("{} of the {}, over the rows of the log", measure.definition, kind.key),
           [of = kind.kind, number = measure.number](R run) {
             return run.summary.log ? known(run.summary.log->mean(of, number)) : Json();
@@ -75,9 +76,10 @@ std::vector<SummaryNumber> measured_numbers() {
           });
     }
   }
-  for (const LimitShare& one : kShares) {
+  for (std::size_t i = 0; i < kShares.size(); ++i) {
+    const LimitShare& one = kShares[i];
     add(
-        one.key, "", one.definition,
+        kLimitNumbers[i], "", one.definition,
         [share = one.share](R run) { return run.summary.log ? known(run.summary.log->mean(share)) : Json(); },
         [share = one.share](const JointLogErrors& joint) { return joint.*share; });
   }

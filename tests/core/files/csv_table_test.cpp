@@ -32,7 +32,33 @@ TEST(CsvTable, ErrorsNameLineAndColumn) {
   EXPECT_EQ(error_of("t;a\n0;1\n"), "line 1, column 2: expected cells between commas; found 't;a'");
   EXPECT_EQ(error_of("t,t\n"), "line 1, column 3: there is a column 't' already");
   EXPECT_EQ(error_of("t,,a\n"), "line 1, column 3: a column has no name");
-  EXPECT_EQ(error_of("t,b\n0,1\n"), "there is no column 'a'");
+  EXPECT_EQ(error_of("t,b\n0,1\n"), "there is no column 'a'; known columns: t, b");
+}
+
+TEST(CsvTable, ReadsEntriesOfJson) {
+  const CsvTable table(
+      "{\"mass\": 0.49, \"kp\": 100, \"entries\": [{\"position\": -0.1, \"torque_enable\": true, \"note\": \"x\", "
+      "\"timestamp\": 0.0035},\n"
+      "{\"position\": 2, \"torque_enable\": false, \"note\": null, \"timestamp\": 5e-1, \"temp\": 28}]}");
+  EXPECT_EQ(table.names(), (std::vector<std::string>{"position", "torque_enable", "note", "timestamp"}));
+  EXPECT_EQ(table.column("position"), (std::vector<double>{-0.1, 2}));
+  EXPECT_EQ(table.column("torque_enable"), (std::vector<double>{1, 0}));
+  EXPECT_EQ(table.column("timestamp", 0.5), (std::vector<double>{0.007, 1}));
+}
+
+TEST(CsvTable, ErrorsNameEntryAndKey) {
+  EXPECT_EQ(error_of(R"({"entries": [{"a": 1}, {"a": "open"}]})"), "entry 2, key 'a': 'open' is not a finite number");
+  EXPECT_EQ(error_of(R"({"entries": [{"a": [1]}]})"), "entry 1, key 'a': '[1]' is not a finite number");
+  EXPECT_EQ(error_of(R"({"entries": [{"a": 1}, {"b": 1}]})"), "entry 2: there is no key 'a'");
+  EXPECT_EQ(error_of(R"({"entries": [{"a": 1}, 2]})"), "entry 2: there is no key 'a'");
+  EXPECT_EQ(error_of(R"({"entries": [{"b": 1}]})"), "there is no column 'a'; known columns: b");
+  EXPECT_EQ(error_of("{\"entries\":\n[{\"a\": 1}, {\"a\": NaN}]}"),
+            "line 2, column 18: the text is not JSON from here on: it is cut or damaged");
+  const std::string none = "the JSON has no entries; expected {\"entries\": [{\"timestamp\": 0, \"position\": 0.1}, ...]}";
+  EXPECT_EQ(error_of("{}"), none);
+  EXPECT_EQ(error_of(R"({"entries": []})"), none);
+  EXPECT_EQ(error_of(R"({"entries": [1]})"), none);
+  EXPECT_EQ(error_of(R"({"entries": [{"a": 1e999}]})"), "the JSON has a number beyond the range of a double");
 }
 
 }  // namespace
