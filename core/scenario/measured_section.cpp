@@ -274,7 +274,8 @@ void insert_torque_off(Node& root, Scenario& scenario) {
     Writer fault(no_joints), change(no_joints);
     fault.add("joint", joints);
     fault.add("kind", scalar_node(has_torque ? "none" : "open"));
-    change.add("t", scalar_node(number_text(measured.log->t[k])));
+    const double time = k == 0 ? 0 : (measured.log->t[k - 1] + measured.log->t[k]) / 2;
+    change.add("t", scalar_node(number_text(time)));
     change.add("fault", fault.take());
     changes.items.push_back(change.take());
   }

@@ -88,9 +88,9 @@ struct MeasuredSettings {
 /// does not exist or has no motor, and for a column or a row that cannot be used.
 void finish_measured(const Node& node, Scenario& scenario, Problems& problems);
 
-/// Turns the column scenario.measured.on into changes: adds to the section `at` of the scenario `root` a fault `open` from each
-/// row on in which the column is 0, and its end where it is not. The resolved scenario contains these faults instead of the
-/// name of the column.
+/// Turns the column scenario.measured.on into changes: adds to the section `at` of the scenario `root` a fault `open` where the
+/// column becomes 0, and its end where it no longer is, each in the middle between two rows. The resolved scenario contains
+/// these faults instead of the name of the column.
 void insert_torque_off(Node& root, Scenario& scenario);
 
 }  // namespace gaitlab
