@@ -195,9 +195,11 @@ class Stepper {
     }
   }
 
-  void find_lost(const std::vector<T>& start, const std::vector<T>& end, In command, double h, const math::Mask<T>& which) {
+  /// Returns true if joints lose speed in lanes of `which`, in which the results agree apart from that.
+  bool find_lost(const std::vector<T>& start, const std::vector<T>& end, In command, double h, const math::Mask<T>& which) {
     const math::Mask<T> asked = lost_.find(implicit, start, end, command, h, which);
     history_[layout.solves()] = history_[layout.solves()] + math::select(asked, T(1.0), T(0.0));
+    return math::any_lane(asked);
   }
 
   /// Lanes whose state is finite. Shorter steps cannot repair the other lanes.
@@ -282,9 +284,10 @@ class Stepper {
       const std::span<const T> peak(&history_[layout.peak()], joints_);
       return agreement_.within(share, in, after, implicit.motors, implicit.plays, peak, difference);
     };
-    find_lost(own.half.x, two, command, h / 2, which);
-    auto second =
-        agree(Agreement<T>::kSecondOrder, which, limits, [&](std::size_t e) { return lost_.added(e, two[e] - one[e]); });
+    const auto of_second = [&](std::size_t e) { return two[e] - one[e]; };
+    auto second = agree(Agreement<T>::kSecondOrder, which, limits, of_second);
+    if (find_lost(own.half.x, two, command, h / 2, second))
+      second = agree(Agreement<T>::kSecondOrder, second, limits, [&](std::size_t e) { return lost_.added(e, of_second(e)); });
     if (fixed) second = which;
     weigh(own.whole, second, -1, false);
     weigh(own.halves, second, 2, true);
@@ -292,9 +295,10 @@ class Stepper {
     math::Mask<T> third{};
     if (math::any_lane(more)) {
       this->four(own, command, h, more);
-      find_lost(own.early.x, four, command, h / 4, more);
-      third = agree(Agreement<T>::kThirdOrder, more, limits_,
-                    [&](std::size_t e) { return lost_.added(e, 2.0 * (four[e] - two[e]) - (two[e] - one[e])); });
+      const auto of_third = [&](std::size_t e) { return 2.0 * (four[e] - two[e]) - (two[e] - one[e]); };
+      third = agree(Agreement<T>::kThirdOrder, more, limits_, of_third);
+      if (find_lost(own.early.x, four, command, h / 4, third))
+        third = agree(Agreement<T>::kThirdOrder, third, limits_, [&](std::size_t e) { return lost_.added(e, of_third(e)); });
       if (level + 1 == kLevels) {
         T& coarse = history_[layout.coarse()];
         coarse = coarse + select(math::fresh(more, third), T(h), T(0.0));

@@ -102,7 +102,7 @@ void Simulation::make_estimate() {
   for (std::size_t l = 0; l < recorded_; ++l)
     accuracy.push_back(physics.adapts() ? scenarios_[l].physics.accuracy : kEventShare);
   const StateLayout layout{layout_.joints, recorded_};
-  step_error_ = std::make_unique<StepError>(layout, accuracy);
+  step_error_ = std::make_unique<StepError>(layout, accuracy, physics.adapts() ? jumps() : std::vector<double>());
 
   // One array for all changing numbers: numbers of this simulation, of step_error_ and of the separate companions.
   const std::size_t own = own_.size();
@@ -121,6 +121,20 @@ void Simulation::make_estimate() {
   numbers_ = std::move(numbers);
 }
 
+/// 1 for each joint whose torque jumps at rest, else 0, by joint; empty if there is none.
+std::vector<double> Simulation::jumps() const {
+  const DcMotor* const motors = actuator_->dc_motors();
+  const std::span<const JointFriction> friction = actuator_->friction();
+  std::vector<double> jumps(layout_.joints, 0.0);
+  for (std::size_t j = 0; j < jumps.size(); ++j) {
+    const std::size_t i = j * lanes_.size();
+    if ((motors != nullptr && motors[i].jumps > 0) || (!friction.empty() && friction[i].dry > 0)) jumps[j] = 1;
+  }
+  for (const std::size_t j : lanes_.front()->passive)
+    jumps[j] = plant_->holds_hinges() && lanes_.front()->robot.joints[j].passive->friction > 0 ? 1 : 0;
+  return std::ranges::find(jumps, 1.0) == jumps.end() ? std::vector<double>() : jumps;
+}
+
 /// Copies the present state to the twin if a window starts. Called before a step.
 void Simulation::begin_window() {
   if (!how_.begins(step_number())) return;
@@ -135,18 +149,49 @@ void Simulation::estimate() {
   const std::int64_t step = step_number();
   const std::int64_t at = how_.at(step);
   const bool asked = (at + 1) % how_.compare == 0;
+  if (how_.steps == 0) {
+    for (const auto& one : apart_) one->step_companion(1);
+  }
+  if (step_error_->jumps()) add_to_means();
   if (asked) {
     evaluate_torques(h_);
-    step_error_->see(first_.of(In(torque_), FirstLanes::torque), first_.of(In(slope_), FirstLanes::speed));
+    step_error_->see(first_.of(In(torque_), FirstLanes::torque), first_.of(In(slope_), FirstLanes::speed),
+                     first_.of(motor_speeds(), FirstLanes::angle));
   }
   const double t = static_cast<double>(step + 1) * h_;
   if (how_.steps != 0) return estimate_in_window(asked, t);
-  for (const auto& one : apart_) one->step_companion(1);
-  In torque;
+  In torque, speed;
   for (std::size_t k = 0; asked && k < kDifferences; ++k) {
     if (k < kCompanions && !apart_.empty()) apart_[k]->evaluate_torques(apart_[k]->h_);
-    if (k < kCompanions) torque = apart_.empty() ? first_.from(torque_, recorded_ + k) : In(apart_[k]->torque_);
-    step_error_->compare(static_cast<Companion>(k), torque, kFactors[k], 1, t);
+    if (k < kCompanions) {
+      torque = apart_.empty() ? first_.from(torque_, recorded_ + k, FirstLanes::torque) : In(apart_[k]->torque_);
+      speed = apart_.empty() ? first_.from(motor_speeds(), recorded_ + k, FirstLanes::speed) : apart_[k]->motor_speeds();
+    }
+    step_error_->compare(static_cast<Companion>(k), torque, kFactors[k], 1, t, speed);
+  }
+}
+
+/// Adds the last step of the run and of its companions with other accuracies to their mean torques. A part of a step without
+/// weight in a lane need not be finite there.
+void Simulation::add_to_means() {
+  const double interval = static_cast<double>(how_.compare) * h_;
+  const auto each = [](const StepEffort& of, std::size_t lane, const auto& add) {
+    for (const StepEffort::Part& part : of.parts) {
+      if (!part.instant && (part.sum[lane] != 0 || part.share[lane] != 0)) add(part);
+    }
+  };
+  const StepEffort own = plant_->applied();
+  each(own, 0, [&](const StepEffort::Part& part) {
+    step_error_->add(first_.of(part.torque, FirstLanes::torque), part.sum[0] / interval, part.share[0] / interval);
+  });
+  for (const Companion which : {Companion::twin, Companion::coarse}) {
+    const auto k = static_cast<std::size_t>(which);
+    const bool beside = apart_.empty();
+    const std::size_t lane = beside ? recorded_ + k : 0;
+    each(beside ? own : apart_[k]->plant_->applied(), lane, [&](const StepEffort::Part& part) {
+      const In torque = beside ? first_.from(part.torque, lane, FirstLanes::torque) : part.torque;
+      step_error_->add(which, torque, part.sum[lane] / interval, part.share[lane] / interval);
+    });
   }
 }
 

@@ -35,8 +35,8 @@ class FirstLanes {
   [[nodiscard]] bool all() const { return lanes_ == layout_.lanes; }
   In of(In values, Place place) { return all() ? values : In(copy(values, 0, copies_[place])); }
   Out of(Out values, Place place) { return all() ? values : copy(values, 0, copies_[place]); }
-  /// Copies the entries of as many lanes, from lane `lane` on, into the slot `torque`.
-  In from(In values, std::size_t lane) { return copy(values, lane, copies_[torque]); }
+  /// Copies the entries of as many lanes, from lane `lane` on.
+  In from(In values, std::size_t lane, Place place) { return copy(values, lane, copies_[place]); }
 
  private:
   Out copy(In values, std::size_t lane, std::vector<double>& to) const {

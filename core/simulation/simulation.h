@@ -109,7 +109,9 @@ class Simulation {
   void make_estimate();
   [[nodiscard]] TwinWindows twin_windows() const;
   [[nodiscard]] std::vector<std::unique_ptr<Simulation>> rollouts_apart() const;
+  [[nodiscard]] std::vector<double> jumps() const;
   void begin_window();
+  void add_to_means();
   void estimate();
   void estimate_in_window(bool asked, double t);
   void step_companion(int times);

@@ -60,6 +60,42 @@ TEST(StepError, NeedsASlopeOrADifference) {
   EXPECT_EQ(lanes.tally(2).torque_error[0], 1);
 }
 
+/// A joint stops in both rollouts, in the run a tenth of the interval earlier: the jump of 5 N m, for a tenth of the interval.
+/// The difference at the comparison counts in an interval without a stop, and for a companion with another gravity.
+TEST(StepError, AJumpAtAnotherTimeCountsForItsTime) {
+  const StateLayout layout{1, 1};
+  Numbers numbers(StepError::size(layout));
+  StepError error(layout, {0.1}, {1});
+  error.bind(numbers);
+  const auto interval = [&](double run, double companion, double torque, double speed) {
+    error.add(Numbers{run}, 1, 0);  // of the extrapolated steps
+    error.add(Numbers{run + 1}, 0, 1);
+    error.add(Companion::twin, Numbers{companion}, 1, 0);
+    error.add(Companion::twin, Numbers{companion + 2}, 0, 1);  // a larger difference, which does not count
+    error.see(Numbers{torque}, Numbers{1}, Numbers{speed});
+    error.compare(Companion::twin, Numbers{torque + 0.25}, 2, 1, 0.1, Numbers{speed});
+    error.compare(Companion::chaotic, Numbers{torque + 0.25}, 2, 1, 0.1, Numbers{speed});
+  };
+  const auto rms = [&] {
+    StepTally made;
+    made.torque_error.resize(1);
+    made.torque_peak.resize(1);
+    error.put(0, made);
+    return made.torque_error[0];
+  };
+  interval(4, 4, 4, 1);
+  EXPECT_DOUBLE_EQ(rms(), 2 * 0.25) << "the first interval has no beginning";
+  interval(3, 3.5, -1, 0);
+  EXPECT_DOUBLE_EQ(rms(), std::sqrt((0.25 + 2 * 5 * 0.5) / 2));
+  interval(-1, -1, -1, 1);
+  EXPECT_DOUBLE_EQ(rms(), std::sqrt((0.25 + 2 * 5 * 0.5 + 0.25) / 3)) << "to break away is no jump";
+  StepTally tally;
+  tally.torque_error.resize(1);
+  tally.torque_peak.resize(1);
+  error.put(0, tally);
+  EXPECT_DOUBLE_EQ(tally.chaotic.share, 2 * 0.25 / 4);
+}
+
 TEST(StepError, AnEventIsBeyondThePeakOfTheWholeRun) {
   SomeEstimate one({1, 1}, {0.1});
   EXPECT_FALSE(one.tally().estimated);
