@@ -14,8 +14,8 @@ void add_test(Commands&), add_new(Commands&), add_completion(Commands&), add_man
 
 /// The order of the program's help.
 inline constexpr void (*kSubcommands[])(Commands&) = {
-    add_run,      add_watch, add_report, add_check,    add_demo,     add_remedy, add_manuals,    add_explain,
-    add_converge, add_swap,  add_sweep,  add_optimize, add_evaluate, add_study, add_identify,  add_dynamics,   add_figure,
-    add_compare,  add_rerun, add_export, add_approve,  add_test,     add_new,    add_completion, add_man};
+    add_run,   add_watch,  add_report,   add_check,    add_demo,  add_remedy,     add_manuals,  add_explain, add_converge,
+    add_swap,  add_sweep,  add_optimize, add_evaluate, add_study, add_identify,   add_dynamics, add_figure,  add_compare,
+    add_rerun, add_export, add_approve,  add_test,     add_new,   add_completion, add_man};
 
 }  // namespace gaitlab::app
