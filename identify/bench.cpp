@@ -95,7 +95,7 @@ std::size_t reversals(const std::vector<double>& values, double share) {
   double extreme = values[0];
   int way = 0;
   for (const double value : values) {
-    if (std::abs(value - extreme) > least && (value > extreme) != (way > 0)) {
+    if (std::abs(value - extreme) > least && (way == 0 || (value > extreme) != (way > 0))) {
       if (way != 0) ++count;
       way = value > extreme ? 1 : -1;
       extreme = value;
@@ -135,6 +135,12 @@ std::vector<std::string> free_current(const Scenario& scenario) {
 class LogCheck {
  public:
   LogCheck(const BenchLog& log, Problems& problems) : log_(log), numbers_(*log.scenario.measured.log), problems_(problems) {
+    const double row = numbers_.t.back() / static_cast<double>(numbers_.t.size() - 1);
+    if (row > kSlow) {
+      problems_.add({log_.file}, fmt::format("the rows are {:.3g} s apart; expected times in s, with a row at least every {} s",
+                                             row, kSlow));
+      return;
+    }
     const std::unique_ptr<Actuator> motors = make_motors(log.scenario);
     const DcMotor* const dc = motors == nullptr ? nullptr : motors->dc_motors();
     for (const MeasuredLog::OfJoint& joint : numbers_.joints) {
@@ -198,6 +204,7 @@ class LogCheck {
       add("the duty reaches {:.4g}; expected at most 1, with the number of full duty as scale, such as 885 or 100", most);
   }
 
+  static constexpr double kSlow = 0.2;    // s; chosen: a servo moves within some 0.1 s
   static constexpr double kStill = 0.02;  // rad, some ticks of 12 bits; chosen
   static constexpr double kTurns = 50;    // rad, 8 turns; chosen: no hinge of a robot's gait turns further
   static constexpr double kTooFast = 4;   // the number
@@ -226,7 +233,8 @@ std::vector<BenchLog> read_bench(const std::string& file, const std::vector<std:
     log.group = entry.group;
     if (log.group.empty()) log.group = entry.sets.empty() ? log.name : fmt::format("{}", fmt::join(entry.sets, ", "));
     log.sets = sets;
-    std::ranges::move(entry.sets, std::back_inserter(log.sets));
+    std::ranges::copy(entry.sets, std::back_inserter(log.sets));
+    log.of_table = std::move(entry.sets);
     for (const std::string& key : of_log) log.sets.push_back(key + "=" + quoted(absolute(entry.file)));
     try {
       log.hash = hash128(read_file(entry.file, kMostScenario));
@@ -250,11 +258,16 @@ std::vector<BenchLog> read_bench(const std::string& file, const std::vector<std:
 
 void check_logs(const std::vector<BenchLog>& logs) {
   Problems problems;
-  for (const BenchLog& log : logs) LogCheck(log, problems);
+  std::map<std::string, std::string> known;  // names of the logs by hash
+  for (const BenchLog& log : logs) {
+    const auto [at, is_new] = known.try_emplace(log.hash, log.file);
+    if (!is_new) problems.add({log.file}, "has the rows of " + at->second + "; name each log once");
+    LogCheck(log, problems);
+  }
   problems.raise();
 }
 
-void check_peaks(const std::vector<BenchLog>& logs, Logged kind, std::size_t keys) {
+void check_fit(const std::vector<BenchLog>& logs, Logged kind, const std::vector<Key>& keys) {
   constexpr double kOfSpan = 0.1;  // chosen: smaller reversals are noise
   std::size_t peaks = 0;
   for (const BenchLog& log : logs) {
@@ -263,21 +276,27 @@ void check_peaks(const std::vector<BenchLog>& logs, Logged kind, std::size_t key
       throw InputError(SourceLocation{log.file},
                        fmt::format("no column of the bench has the {}; expected one for a joint in measured.columns",
                                    logged_kinds()[static_cast<std::size_t>(kind)].key));
+    for (const Key& key : keys) {
+      const auto states = [&](const std::string& set) { return set.starts_with(key.name + "="); };
+      if (std::ranges::any_of(log.of_table, states))
+        throw InputError(SourceLocation{"--fit"},
+                         fmt::format("{} has a value per log in the table, and cannot be fitted", key.name));
+    }
     if (log.held_out) continue;
     for (const MeasuredLog::OfJoint& joint : joints) peaks += reversals(joint.of(kind), kOfSpan);
   }
-  if (peaks < keys)
+  if (peaks < keys.size())
     throw InputError(SourceLocation{"--fit"},
                      fmt::format("{} cannot be told from {} in the fitted logs; fit fewer keys, or log "
                                  "more motion",
-                                 counted(keys, "key"), counted(peaks, "reversal")));
+                                 counted(keys.size(), "key"), counted(peaks, "reversal")));
 }
 
 void hold_out(std::vector<BenchLog>& logs, const std::vector<std::string>& patterns, double share, std::int64_t seed) {
   for (const std::string& pattern : patterns) {
     bool any = false;
     for (BenchLog& log : logs) {
-      if (!glob(pattern, log.name)) continue;
+      if (!glob(pattern, log.name) && !glob(pattern, fs::path(log.file).filename().string())) continue;
       any = log.held_out = true;
     }
     if (!any) throw InputError(SourceLocation{"--hold-out"}, fmt::format("no log matches {}", in_quotes(pattern)));
@@ -289,15 +308,18 @@ void hold_out(std::vector<BenchLog>& logs, const std::vector<std::string>& patte
     std::vector<std::pair<double, std::string>> order;
     for (const auto& [name, drawn] : groups) order.emplace_back(drawn, name);
     std::ranges::sort(order);
-    const auto out = static_cast<std::size_t>(std::floor(share * static_cast<double>(order.size())));
+    // A quarter of three groups is one: the error of logs that were fitted is not a test.
+    constexpr std::size_t kFew = 3;
+    auto out = static_cast<std::size_t>(share * static_cast<double>(order.size()));
+    if (share > 0 && out == 0 && order.size() >= kFew) out = 1;
     for (BenchLog& log : logs)
       log.held_out = std::ranges::any_of(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(out),
                                          [&](const auto& one) { return one.second == log.group; });
   }
   const auto fitted = std::ranges::count(logs, false, &BenchLog::held_out);
   if (fitted < 2)
-    throw InputError(SourceLocation{"--hold-out"},
-                     fmt::format("{} of {} is left to fit; expected at least 2", fitted, counted(logs.size(), "log")));
+    throw InputError(SourceLocation{patterns.empty() ? "--share" : "--hold-out"},
+                     fmt::format("{} of {} would be fitted; expected at least 2", fitted, counted(logs.size(), "log")));
 }
 
 }  // namespace gaitlab::identify

@@ -6,19 +6,21 @@
 
 #include "core/plugin/catalog.h"
 #include "core/scenario/read_scenario.h"
+#include "identify/key.h"
 
 namespace gaitlab::identify {
 
 /// A log, and the scenario with which it is compared.
 struct BenchLog {
-  std::string file;                ///< its path
-  std::string name;                ///< name of the file without its ending
-  std::string group;               ///< logs of a group are left out together when terms are chosen
-  std::string hash;                ///< hash of its text
-  bool held_out = false;           ///< true if the log is not fitted
-  std::vector<std::string> sets;   ///< settings of this log, in the form of --set
-  std::vector<std::string> freed;  ///< those of them that state an efficiency instead of a stall current
-  Scenario scenario;               ///< with the bench's values of all keys
+  std::string file;                   ///< its path
+  std::string name;                   ///< name of the file without its ending
+  std::string group;                  ///< logs of a group are left out together when terms are chosen
+  std::string hash;                   ///< hash of its text
+  bool held_out = false;              ///< true if the log is not fitted
+  std::vector<std::string> sets;      ///< settings of this log, in the form of --set
+  std::vector<std::string> freed;     ///< those of them that state an efficiency instead of a stall current
+  std::vector<std::string> of_table;  ///< those of its row in a table
+  Scenario scenario;                  ///< with the bench's values of all keys
   std::unique_ptr<ScenarioTemplate> with;
 };
 
@@ -31,11 +33,13 @@ std::vector<BenchLog> read_bench(const std::string& file, const std::vector<std:
                                  const std::vector<std::string>& logs, Catalog& catalog);
 
 /// Throws InputError for a log that no servo can have recorded: an angle that does not move, that looks like degrees or ticks,
-/// or that jumps faster than 4 times the speed of the motor; a duty above 1; currents in mA.
+/// or that jumps faster than 4 times the speed of the motor; a duty above 1; currents in mA; times in
+/// ms; rows of another log.
 void check_logs(const std::vector<BenchLog>& logs);
 
-/// Throws InputError if a log lacks the quantity, or if it reverses less often in all fitted logs than there are keys.
-void check_peaks(const std::vector<BenchLog>& logs, Logged kind, std::size_t keys);
+/// Throws InputError if a log lacks the quantity, if it reverses less often in all fitted logs than there are keys, or if a
+/// table of logs states a key.
+void check_fit(const std::vector<BenchLog>& logs, Logged kind, const std::vector<Key>& keys);
 
 /// Marks the held-out logs: those whose name matches one of `patterns` (with * and ?), or, without a pattern, a share of the
 /// groups, drawn by `seed`. Throws InputError for a pattern without a log, and if fewer than two logs are left.

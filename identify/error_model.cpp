@@ -68,9 +68,11 @@ double ErrorModels::step(const Point& point, std::size_t varied) const {
 }
 
 std::vector<std::string> sets_of(const Point& point, const std::vector<Key>& keys) {
+  std::vector<double> values;
+  for (const Key& key : keys) values.push_back(key.bench);
+  for (std::size_t k = 0; k < point.keys.size(); ++k) values[point.keys[k]] = point.values[static_cast<Eigen::Index>(k)];
   std::vector<std::string> sets;
-  for (std::size_t k = 0; k < point.keys.size(); ++k)
-    sets.push_back(keys[point.keys[k]].name + "=" + number_text(point.values[static_cast<Eigen::Index>(k)]));
+  for (std::size_t k = 0; k < keys.size(); ++k) sets.push_back(keys[k].name + "=" + number_text(values[k]));
   return sets;
 }
 
@@ -163,8 +165,13 @@ std::vector<ErrorModel> ErrorModels::operator()(std::span<const Question> questi
       const Eigen::ArrayXd stretch = (1 + (r.array() / width_).square()).sqrt();
       const Eigen::VectorXd weight = stretch.inverse();
       const MatrixXd weighted = weight.asDiagonal() * slopes;
-      model = {true, 2 * width_ * width_ * (stretch - 1).mean(), r.cwiseAbs().mean(), weighted.transpose() * r / rows,
-               weighted.transpose() * slopes / rows};
+      const MatrixXd local = weight.cwiseProduct(weight).asDiagonal() * weighted;
+      model = {true,
+               2 * width_ * width_ * (stretch - 1).mean(),
+               r.cwiseAbs().mean(),
+               weighted.transpose() * r / rows,
+               weighted.transpose() * slopes / rows,
+               local.transpose() * slopes / rows};
     }
     first += count + 1;
   }

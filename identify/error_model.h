@@ -29,12 +29,13 @@ struct Point {
 ///
 ///     cost + 2 gradient . d + d . curvature d        d: change of the keys, each in units of its scale
 ///
-/// gradient = J' W r / n, curvature = J' W J / n with the differences J of the residuals and W = 1 / sqrt(1 + (r / b)^2).
+/// gradient = J' W r / n, curvature = J' W J / n with the differences J of the residuals and W = 1 / sqrt(1 + (r / b)^2), whose
+/// parabola is above the error. `local` = J' W^3 J / n is the curvature itself, for intervals.
 struct ErrorModel {
   bool whole = false;  ///< false if the run was refused or diverged; the other numbers are then 0
   double cost = 0, mae = 0;
   Eigen::VectorXd gradient;
-  Eigen::MatrixXd curvature;
+  Eigen::MatrixXd curvature, local;
 };
 
 struct Question {
@@ -89,7 +90,7 @@ class ErrorModels {
   double width_ = 0;  ///< b, in the unit of the quantity
 };
 
-/// The settings of a point in the form of --set.
+/// The settings of a point in the form of --set: of all keys, because a usual value may follow from another key.
 std::vector<std::string> sets_of(const Point& point, const std::vector<Key>& keys);
 
 }  // namespace gaitlab::identify

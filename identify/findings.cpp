@@ -7,6 +7,7 @@
 
 #include "core/laws/dc_motor.h"
 #include "core/scenario/built_robot.h"
+#include "core/settings/wording.h"
 
 namespace gaitlab::identify {
 
@@ -16,6 +17,7 @@ constexpr double kTrade = 0.9;     // correlation; chosen
 constexpr double kWide = 0.5;      // half width of an interval as a share of the value; chosen
 constexpr double kShare = 0.1;     // of the time at the limit; the number
 constexpr double kFar = 2;         // times the median error of the logs; chosen
+constexpr double kStrange = 0.5;   // of the span of the angles; chosen
 constexpr double kReached = 0.98;  // of a limit; chosen
 
 /// The measurement that tells two keys apart.
@@ -37,14 +39,6 @@ const char* remedy(const std::string& one, const std::string& other) {
   return "a log in which only one of them matters tells them apart";
 }
 
-bool any_has(const std::vector<BenchLog>& logs, std::initializer_list<Logged> kinds) {
-  return std::ranges::any_of(logs, [&](const BenchLog& log) {
-    return std::ranges::any_of(log.scenario.measured.log->joints, [&](const MeasuredLog::OfJoint& joint) {
-      return std::ranges::any_of(kinds, [&](Logged kind) { return !joint.of(kind).empty(); });
-    });
-  });
-}
-
 /// True if a log has rows without torque.
 bool swings_free(const BenchLog& log) {
   return std::ranges::any_of(log.scenario.changes, [](const Change& change) {
@@ -58,6 +52,7 @@ class Findings {
       : made_(made), logs_(logs), keys_(keys) {}
 
   std::vector<std::string> take() {
+    add_failures();
     add_missing();
     add_trades();
     add_wide();
@@ -75,12 +70,32 @@ class Findings {
     return std::ranges::any_of(made_.keys, [&](const IdentifiedKey& one) { return one.fitted && keys_[one.key].name == name; });
   }
 
+  void add_failures() {
+    if (made_.starts > 1 && 2 * made_.agreed < made_.starts)
+      add("{} of {} starts end within 2 % of the best: there may be a better fit; state ranges, as in --fit KEY=LOW:HIGH",
+          made_.agreed, made_.starts);
+    for (const bool held_out : {false, true}) {
+      const auto before = mean_error(logs_, made_.before, made_.kind, held_out);
+      const auto after = mean_error(logs_, made_.after, made_.kind, held_out);
+      if (before && *after > *before)
+        add("{} logs are further off than by the bench: do not use the numbers", held_out ? "held-out" : "fitted");
+    }
+    for (std::size_t l = 0; l < logs_.size(); ++l) {
+      for (const report::JointLogErrors& joint : made_.before[l].errors->joints) {
+        const auto& angle = joint.of(Logged::angle);
+        if (angle && angle->mae > kStrange * angle->span)
+          add("log {}: the run of the bench is off by {:.2g} times the motion; look at unit, sign and zero of angle and goal",
+              logs_[l].name, angle->mae / angle->span);
+      }
+    }
+  }
+
   void add_missing() {
     if (std::ranges::none_of(logs_, &BenchLog::held_out))
       add("no log is held out: the error is that of the logs from which the numbers were taken");
-    if (!any_has(logs_, {Logged::duty, Logged::voltage, Logged::current, Logged::torque}) && fitted("actuator.stall_torque"))
-      add("no log has a duty, a voltage, a current or a torque: stall_torque is right only as far as the controller's gain is, "
-          "because their product moves the joint");
+    if (made_.kind == Logged::angle && fitted("actuator.stall_torque"))
+      add("angles alone are compared: stall_torque is right only as far as the controller's gain is, because their product "
+          "moves the joint");
     if (!logs_[0].freed.empty() && (fitted("actuator.stall_torque") || fitted("actuator.no_load_speed")))
       add("no log has a current: currents and their checks rest on the efficiency of the bench. Its stall current does not "
           "follow from these logs");
@@ -107,8 +122,13 @@ class Findings {
   void add_wide() {
     for (const IdentifiedKey& one : made_.keys) {
       const double half = (one.high - one.low) / 2;
-      if (one.fitted && half > kWide * std::abs(one.value))
-        add("{} is known to +- {:.0f} % only", keys_[one.key].name, 100 * half / std::abs(one.value));
+      const Key& key = keys_[one.key];
+      if (one.at_bound) {
+        add("{} is at a bound of its range, {} to {} {}; it has no interval", key.name, number_text(key.low),
+            number_text(key.high), key.unit);
+      } else if (one.fitted && half > kWide * std::abs(one.value)) {
+        add("{} is known to +- {:.2g} {} only", key.name, half, key.unit);
+      }
     }
   }
 

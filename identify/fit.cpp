@@ -13,9 +13,12 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kGain = 1e-3;     // part of the cost; chosen: differences of runs are rough below it
-constexpr int kMostRounds = 30;    // chosen; drawn benches need 5 to 15
+constexpr int kSmall = 2;          // steps in a row that gain less; chosen: a rough step may be followed by a good one
+constexpr int kMostRounds = 40;    // chosen; drawn benches need 5 to 15
 constexpr double kDamping = 1e-3;  // More's usual start
-constexpr double kMostDamping = 1e4;
+constexpr double kLeastDamping = 1e-4,
+                 kMostDamping = 1e2;         // chosen: below a step is Newton's, above it moves a hundredth of it
+constexpr double kEasier = 5, kHarder = 20;  // chosen
 
 double mean_cost(std::span<const ErrorModel> models) {
   double sum = 0;
@@ -31,7 +34,7 @@ struct Descent {
   Fit& fit;
   double damping = kDamping;
   bool ended = false;
-  int small = 0;  ///< steps in a row that gained little
+  int small = 0;  ///< accepted steps in a row that gained little
 
   /// The point to try next.
   [[nodiscard]] Point trial(const ErrorModels& of) const {
@@ -55,20 +58,17 @@ struct Descent {
       ended = true;
       return;
     }
-    const bool better = first || cost < fit.cost;
-    const double gain = first ? 1 : (fit.cost - cost) / fit.cost;
-    if (better) {
+    if (first || cost < fit.cost) {
+      const bool gains = first || fit.cost - cost >= kGain * fit.cost;
       fit.at = std::move(point);
       fit.models = std::move(models);
       fit.cost = cost;
-      damping /= 5;
-      small = gain < kGain ? small + 1 : 0;
+      damping = std::max(damping / kEasier, kLeastDamping);
+      small = gains ? 0 : small + 1;
     } else {
-      damping *= 10;
-      ++small;
+      damping *= kHarder;
     }
-    constexpr int kSmall = 3;
-    ended = small >= kSmall || damping > kMostDamping || fit.rounds >= kMostRounds;
+    ended = small >= kSmall || damping > kMostDamping || fit.rounds >= kMostRounds || fit.cost == 0;
   }
 };
 
@@ -79,6 +79,8 @@ double Fit::mae() const {
   for (const ErrorModel& model : models) sum += model.mae;
   return sum / static_cast<double>(models.size());
 }
+
+bool at_bound(const Key& key, double value) { return value <= key.low || value >= key.high; }
 
 VectorXd model_step(const Fit& fit, std::span<const ErrorModel> models, const ErrorModels& of, double damping) {
   const auto size = static_cast<Index>(fit.at.keys.size());

@@ -89,7 +89,7 @@ double left_out_error(ErrorModels& models, const Point& start) {
 /// Position of the key whose return to the bench's value costs least by the models at the fit, among those not yet `kept`.
 std::optional<std::size_t> cheapest(const Fit& fit, const ErrorModels& models, const std::vector<std::size_t>& kept) {
   MatrixXd curvature = MatrixXd::Zero(fit.at.values.size(), fit.at.values.size());
-  for (const ErrorModel& model : fit.models) curvature += model.curvature;
+  for (const ErrorModel& model : fit.models) curvature += model.local;
   curvature.diagonal().array() += 1e-9 * curvature.trace();
   const MatrixXd inverse = curvature.inverse();
   std::optional<std::size_t> best;
@@ -98,7 +98,7 @@ std::optional<std::size_t> cheapest(const Fit& fit, const ErrorModels& models, c
     const std::size_t key = fit.at.keys[k];
     if (std::ranges::find(kept, key) != kept.end()) continue;
     const auto at = static_cast<Index>(k);
-    const double back = (fit.at.values[at] - models.keys()[key].start) / models.scale(key);
+    const double back = (fit.at.values[at] - models.keys()[key].bench) / models.scale(key);
     const double cost = back * back / inverse(at, at);
     if (cost < least) {
       least = cost;
@@ -108,12 +108,22 @@ std::optional<std::size_t> cheapest(const Fit& fit, const ErrorModels& models, c
   return best;
 }
 
-/// A value with as many digits as a tenth of its interval's half width needs, at least one.
+/// A value whose last digit is at most a tenth of `half`.
 double rounded(double value, double half) {
   if (!(half > 0) || !std::isfinite(half)) return value;
-  const double unit = math::exp(math::log(10.0) * std::floor(math::log(half / 10) / math::log(10.0)));
-  constexpr double kDigits = 1e12;  // removes the rounding of `unit`
-  return std::round(std::round(value / unit) * unit * kDigits) / kDigits;
+  const int digits = static_cast<int>(std::ceil(-std::log10(half / 10)));
+  if (digits <= 0) return std::round(value);
+  constexpr int kMost = 15;
+  return std::stod(fmt::format("{:.{}f}", value, std::min(digits, kMost))) + 0.0;  // + 0.0: no -0
+}
+
+/// Change of a key, the others held, that raises the cost by a thousandth; infinite if it has no effect.
+double harmless(const Fit& fit, const ErrorModels& models, Index key) {
+  double curvature = 0;
+  for (const ErrorModel& model : fit.models) curvature += model.local(key, key);
+  curvature /= static_cast<double>(fit.models.size());
+  constexpr double kPart = 1e-3;
+  return std::sqrt(kPart * fit.cost / curvature) * models.scale(fit.at.keys[static_cast<std::size_t>(key)]);
 }
 
 /// Intervals by leaving out one log each (jackknife), on the second-order models: the change of the fit without log l is d_l,
@@ -125,6 +135,7 @@ MatrixXd covariance(const Fit& fit, const ErrorModels& models) {
   for (std::size_t l = 0; l < n; ++l) {
     std::vector<ErrorModel> others = fit.models;
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(l));
+    for (ErrorModel& model : others) model.curvature = model.local;
     changes.col(static_cast<Index>(l)) = model_step(fit, others, models, 0);
   }
   changes.colwise() -= changes.rowwise().mean().eval();
@@ -174,11 +185,11 @@ void choose_keys(Fit& best, std::vector<double>& worth, ErrorModels& models, con
     const Point less = without(best.at, *position);
     const double other = left_out_error(models, less);
     worth[key] = other / error - 1;
-    if (worth[key] >= kWorth) {
+    if (!(other < (1 + kWorth) * error)) {
       kept.push_back(key);
       continue;
     }
-    error = other;
+    error = std::min(error, other);
     Fit again{less, best.logs};
     solve({&again, 1}, models);
     best = std::move(again);
@@ -214,15 +225,17 @@ Identified identify(ErrorModels& models, const IdentifySettings& settings) {
   const MatrixXd spread = covariance(made.best, models);
   const double quantile = student_quantile(made.best.logs.size());
   for (std::size_t k = 0; k < keys.size(); ++k) {
-    IdentifiedKey& one = made.keys.emplace_back(IdentifiedKey{k, false, keys[k].start, 0, 0, worth[k]});
+    IdentifiedKey& one = made.keys.emplace_back(IdentifiedKey{k, false, false, keys[k].bench, 0, 0, worth[k]});
     const auto at = std::ranges::find(made.best.at.keys, k) - made.best.at.keys.begin();
     if (static_cast<std::size_t>(at) == made.best.at.keys.size()) continue;
     one.fitted = true;
     double& value = made.best.at.values[at];
+    one.at_bound = at_bound(keys[k], value);
     const double half = quantile * std::sqrt(spread(at, at)) * models.scale(k);
-    value = one.value = std::clamp(rounded(value, half), keys[k].low, keys[k].high);
+    value = one.value =
+        std::clamp(rounded(value, std::min(half, 10 * harmless(made.best, models, at))), keys[k].low, keys[k].high);
     one.low = std::max(rounded(value - half, half), keys[k].low);
-    one.high = rounded(value + half, half);
+    one.high = std::min(rounded(value + half, half), keys[k].high);
   }
   made.correlation = correlation_of(spread);
 

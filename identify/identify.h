@@ -14,7 +14,8 @@ namespace gaitlab::identify {
 /// A key, as the logs identify it.
 struct IdentifiedKey {
   std::size_t key = 0;
-  bool fitted = false;  ///< false if the key earns too little and keeps the bench's value
+  bool fitted = false;    ///< false if the key earns too little and keeps the bench's value
+  bool at_bound = false;  ///< true at a bound of its range: the interval then means nothing
   double value = 0;
   double low = 0, high = 0;  ///< interval of 95 %
   double worth = 0;          ///< share by which the error of logs that are left out grows without the key; NaN if not tried

@@ -93,7 +93,7 @@ std::vector<Key> fitted_keys(const Scenario& bench, const std::vector<std::strin
       continue;
     }
     const double start = value[of_joint == joints.end() ? 0 : static_cast<std::size_t>(of_joint - joints.begin())];
-    Key key{name, at->second.unit, start, start / kSpread, start * kSpread};
+    Key key{name, at->second.unit, start, start, start / kSpread, start * kSpread};
     if (name == "actuator.i_max" && key.start == 0 && bench.actuator.entry != nullptr) {
       const std::unique_ptr<Actuator> motors = make_motors(bench);
       key.start = motors->dc_motors()[0].i_max;

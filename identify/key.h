@@ -11,7 +11,8 @@ namespace gaitlab::identify {
 struct Key {
   std::string name;  ///< as in --set, such as `actuator.dry_friction`
   std::string unit;
-  double start = 0;  ///< its value in the bench
+  double bench = 0;  ///< its value in the bench
+  double start = 0;  ///< the same, within the range
   double low = 0, high = 0;
   double least = 0;  ///< least difference of two values that a run can tell apart; 0 for any
 };

@@ -48,37 +48,30 @@ Node motors_of(const std::string& file, const std::vector<std::string>& sets) {
   return motors;
 }
 
-/// A section of the servo file, with the keys that are fitted and those that are not.
-struct Section {
-  Node map = {Node::Kind::map};
-  std::vector<std::string> fitted, stated;
+/// The keys of a section of the servo file by their source: fitted, of the data sheet, and values of the bench.
+struct Keys {
+  std::vector<std::string> fitted, stated, kept;
 };
 
-Section section_of(const Node& motors, const std::string& name, const Identified& made, const std::vector<Key>& keys) {
-  Section section;
-  const auto add = [&](const std::string& key, Node value) {
-    section.map.keys.emplace_back(key, SourceLocation{});
-    section.map.items.push_back(std::move(value));
-  };
-  std::vector<std::pair<std::string, double>> fitted;
+/// Puts the values into the map of a section, and sorts its keys.
+void take_values(Node& map, const std::string& section, const Identified& made, const std::vector<Key>& keys, Keys& sources) {
+  for (const auto& key : map.keys) {
+    if (key.first != "type" && key.first != "source") sources.stated.push_back(key.first);
+  }
   for (const IdentifiedKey& one : made.keys) {
-    const std::string& key = keys[one.key].name;
-    if (one.fitted && key.starts_with(name + ".")) fitted.emplace_back(key.substr(name.size() + 1), one.value);
-  }
-  if (const Node* const stated = motors.find(name)) {
-    for (std::size_t i = 0; i < stated->keys.size(); ++i) {
-      const std::string& key = stated->keys[i].first;
-      if (key == "source") continue;
-      if (std::ranges::any_of(fitted, [&](const auto& one) { return one.first == key; })) continue;
-      add(key, stated->items[i]);
-      if (key != "type") section.stated.push_back(key);
+    const std::string& name = keys[one.key].name;
+    if (!name.starts_with(section + ".")) continue;
+    const std::string key = name.substr(section.size() + 1);
+    const bool stated = map.find(key) != nullptr;
+    if (!one.fitted && stated) continue;
+    if (stated) {
+      remove(map, key);
+      std::erase(sources.stated, key);
     }
+    map.keys.emplace_back(key, SourceLocation{});
+    map.items.push_back(scalar_node(number_text(one.value)));
+    (one.fitted ? sources.fitted : sources.kept).push_back(key);
   }
-  for (const auto& [key, value] : fitted) {
-    add(key, scalar_node(number_text(value)));
-    section.fitted.push_back(key);
-  }
-  return section;
 }
 
 }  // namespace
@@ -107,40 +100,46 @@ std::string source_text(const Identified& made, const std::vector<BenchLog>& log
   return text;
 }
 
+bool holds_in_servo_file(const Key& key) {
+  const std::size_t dot = key.name.find('.');
+  const std::string section = key.name.substr(0, dot);
+  return (section == "actuator" || section == "controller") && key.name.find('.', dot + 1) == std::string::npos;
+}
+
 std::string servo_text(const std::string& name, const std::string& file, const std::vector<std::string>& sets,
                        const Identified& made, const std::vector<BenchLog>& logs, const std::vector<Key>& keys) {
   Node motors = motors_of(file, sets);
-  const Node* const actuator_map = motors.find("actuator");
-  const Node* const source = actuator_map == nullptr ? nullptr : actuator_map->find("source");
-  const std::string of_stated = source == nullptr ? "stated in the bench" : source->text;
-  std::vector<std::string> freed;
-  if (!logs[0].freed.empty()) {
-    // A stall current that bounds the product of torque and speed: no log has a current, and its efficiency is kept.
-    Node& actuator = const_cast<Node&>(*actuator_map);
-    remove(actuator, "stall_current");
-    Problems none;
-    apply_sets(motors, {logs[0].freed.back()}, none);
-    freed = {"efficiency"};
-  }
-  Section actuator = section_of(motors, "actuator", made, keys);
-  Section controller = section_of(motors, "controller", made, keys);
-  for (Section* const section : {&actuator, &controller}) section->map.flow = false;
-  std::vector<std::string> fitted = actuator.fitted;
-  fitted.insert(fitted.end(), controller.fitted.begin(), controller.fitted.end());
-  std::vector<std::string> stated = actuator.stated;
-  stated.insert(stated.end(), controller.stated.begin(), controller.stated.end());
-  std::erase_if(stated, [&](const std::string& key) { return std::ranges::find(freed, key) != freed.end(); });
   std::string text = fmt::format(
       "# Servo whose numbers follow from logs: gaitlab identify.\ngaitlab_servo: 1\nname: {}\nsources:\n", yaml_text(name));
+  std::string maps, of_stated = "stated in the bench";
+  Keys sources;
+  for (std::size_t i = 0; i < motors.items.size(); ++i) {
+    const std::string& section = motors.keys[i].first;
+    Node& map = motors.items[i];
+    const Node* const type = map.find("type");
+    if (section == "controller" && (type == nullptr || type->text != "rc_servo")) continue;  // not the servo's own
+    if (const Node* const source = map.find("source")) of_stated = source->text;
+    remove(map, "source");
+    if (section == "actuator" && !logs[0].freed.empty()) {
+      remove(map, "stall_current");
+      map.keys.emplace_back("efficiency", SourceLocation{});
+      map.items.push_back(scalar_node(logs[0].freed.back().substr(logs[0].freed.back().find('=') + 1)));
+    }
+    take_values(map, section, made, keys, sources);
+    map.flow = false;
+    maps += section + ":\n" + print_yaml(map, 2);
+  }
+  if (!logs[0].freed.empty()) {
+    std::erase(sources.stated, "efficiency");
+    sources.kept.emplace_back("efficiency");
+  }
   const auto add = [&](const std::vector<std::string>& of, const char* kind, const std::string& why) {
     if (!of.empty()) text += fmt::format("  - {{of: [{}], kind: {}, text: {}}}\n", fmt::join(of, ", "), kind, yaml_text(why));
   };
-  add(fitted, "identified", source_text(made, logs));
-  add(freed, "chosen", "that of the bench, because no log has a current");
-  add(stated, source == nullptr ? "chosen" : "data sheet", of_stated);
-  text += "actuator:\n" + print_yaml(actuator.map, 2);
-  if (controller.map.items.size() > 1) text += "controller:\n" + print_yaml(controller.map, 2);
-  return text;
+  add(sources.fitted, "identified", source_text(made, logs));
+  add(sources.kept, "chosen", "value of the bench, which these logs do not tell");
+  add(sources.stated, of_stated == "stated in the bench" ? "chosen" : "data sheet", of_stated);
+  return text + maps;
 }
 
 }  // namespace gaitlab::identify

@@ -59,8 +59,10 @@ std::string table_of_keys(const Identified& made, const std::vector<Key>& keys) 
     const Key& key = keys[one.key];
     const std::string worth = std::isfinite(one.worth) ? fmt::format("{:+.0f} %", 100 * one.worth) : "-";
     rows.push_back({key.name, one.fitted ? number_text(one.value) : "as in the bench",
-                    one.fitted ? number_text(one.low) + " to " + number_text(one.high) : "-", key.unit,
-                    fmt::format("{:.4g}", key.start), worth});
+                    !one.fitted    ? "-"
+                    : one.at_bound ? "at its bound"
+                                   : number_text(one.low) + " to " + number_text(one.high),
+                    key.unit, fmt::format("{:.4g}", key.bench), worth});
   }
   return cells_text(rows);
 }
@@ -83,6 +85,15 @@ std::string table_of_logs(const Identified& made, const std::vector<BenchLog>& l
   return cells_text(rows);
 }
 
+/// The fitted values as options.
+std::string settings_text(const Identified& made, const std::vector<Key>& keys) {
+  std::string text;
+  for (const IdentifiedKey& one : made.keys) {
+    if (one.fitted) text += fmt::format("--set {}={}\n", keys[one.key].name, number_text(one.value));
+  }
+  return text;
+}
+
 int identify_servo(const IdentifyArguments& a) {
   if (!a.to.empty()) check_new(a.to);
   Catalog catalog = standard_catalog();
@@ -91,7 +102,11 @@ int identify_servo(const IdentifyArguments& a) {
   identify::hold_out(logs, a.held_out, a.share, a.seed);
   const std::vector<Key> keys = identify::fitted_keys(logs[0].scenario, a.fit);
   const Logged kind = std::ranges::find(logged_kinds(), a.quantity, &LoggedKind::key)->kind;
-  identify::check_peaks(logs, kind, keys.size());
+  identify::check_fit(logs, kind, keys);
+  const auto odd = std::ranges::find_if_not(keys, identify::holds_in_servo_file);
+  if (!a.to.empty() && odd != keys.end())
+    throw InputError(SourceLocation{"--to"},
+                     fmt::format("a servo file cannot state {}; without --to its value is printed", odd->name));
   const StopOnSignal stop(StopOnSignal::Second::ends_the_process);
   Identified made;
   try {
@@ -106,16 +121,20 @@ int identify_servo(const IdentifyArguments& a) {
     return 1;
   }
   const std::string name = std::filesystem::path(a.to.empty() ? "servo" : a.to).stem().string();
-  const std::string servo = identify::servo_text(name, a.file, a.sets, made, logs, keys);
-  if (!a.to.empty()) write_file(a.to, servo, Existing::refused);
-  if (a.quiet) return 0;
+  const std::string result =
+      odd == keys.end() ? identify::servo_text(name, a.file, a.sets, made, logs, keys) : settings_text(made, keys);
+  if (!a.to.empty()) write_file(a.to, result, Existing::refused);
+  if (a.quiet) {
+    if (a.to.empty()) fmt::print("{}", result);
+    return 0;
+  }
   std::string text = fmt::format("{}; {} of {} starts end within 2 % of the best\n\n{}\n{}\n", counted(made.runs, "run"),
                                  made.agreed, made.starts, table_of_errors(made, logs), table_of_keys(made, keys));
   if (const auto limits = identify::findings(made, logs, keys); !limits.empty()) {
     text += "limits of these logs\n";
     for (const std::string& one : limits) text += "  " + wrapped(one, 4, 98).substr(2);
   }
-  text += "\n" + table_of_logs(made, logs) + "\n" + (a.to.empty() ? servo : "the servo is in " + a.to + "\n");
+  text += "\n" + table_of_logs(made, logs) + "\n" + (a.to.empty() ? result : "the servo is in " + a.to + "\n");
   fmt::print("{}", text);
   return 0;
 }

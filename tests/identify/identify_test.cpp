@@ -116,14 +116,14 @@ TEST_F(Bench, FindsTheNumbersOfItsOwnLogs) {
   text.replace(at, text.find('\n', at) - at, "actuator: {type: servo, model: own.yaml}");
   folder_.write("bench.yaml", text);
   const std::vector<BenchLog> with = bench({"logs.csv"});
+  const std::vector<Key> own = fitted_keys(with[0].scenario, {"actuator.stall_torque"});
   std::atomic<bool> stop = false;
-  EXPECT_EQ(error_of(ErrorModels(with, keys, Logged::angle, 1, stop).compared({})[0], Logged::angle),
-            error_of(made.after[0], Logged::angle));
+  ErrorModels models(with, own, Logged::angle, 1, stop);
+  EXPECT_EQ(error_of(models.compared({})[0], Logged::angle), error_of(made.after[0], Logged::angle));
 
-  // No log has a duty or a current, and none swings freely.
   const std::vector<std::string> limits = findings(made, logs, keys);
   ASSERT_FALSE(limits.empty());
-  EXPECT_TRUE(contains(limits[0], "no log has a duty")) << limits[0];
+  EXPECT_TRUE(contains(limits[0], "angles alone are compared")) << limits[0];
 }
 
 TEST_F(Bench, AKeyThatEarnsNothingStays) {
@@ -140,6 +140,21 @@ TEST_F(Bench, AKeyThatEarnsNothingStays) {
   EXPECT_NEAR(made.keys[0].value, kTorque, 0.005 * kTorque);
   EXPECT_FALSE(made.keys[1].fitted);
   EXPECT_EQ(made.keys[1].value, kDry);
+}
+
+TEST_F(Bench, FarStartsEndInTheSamePlaceAndBoundsAreNamed) {
+  write_log("slow.csv", 2, 2);
+  write_log("fast.csv", 5, 2);
+  write_bench(0.4, kDry);  // a quarter of the torque
+  std::vector<BenchLog> logs = bench({"slow.csv", "fast.csv"});
+  hold_out(logs, {}, 0, 1);
+  const auto fitted = [&](const std::string& key) { return identified(logs, fitted_keys(logs[0].scenario, {key})); };
+  EXPECT_NEAR(fitted("actuator.stall_torque").keys[0].value, kTorque, 0.005 * kTorque);
+  const Identified bounded = fitted("actuator.stall_torque=0.5:1");
+  EXPECT_EQ(bounded.keys[0].value, 1);
+  EXPECT_TRUE(bounded.keys[0].at_bound);
+  EXPECT_EQ(bounded.before[0].errors->joints[0].of(Logged::angle)->mae,
+            fitted("actuator.stall_torque").before[0].errors->joints[0].of(Logged::angle)->mae);
 }
 
 TEST_F(Bench, RefusesLogsThatNoServoRecorded) {
@@ -159,6 +174,11 @@ TEST_F(Bench, RefusesLogsThatNoServoRecorded) {
   refused(1, "angle: angle", "line 3, column 7", "t,goal,angle\n0,0,0\n0.1,0,nan\n");
   refused(1, "angle: angle", "expected cells between commas", "t;goal;angle\n0;0;0\n");
   refused(1, "angle: angle", "the table is empty", "\n");
+  refused(1, "angle: angle", "expected times in s", "t,goal,angle\n0,0,0\n5,0,0.1\n10,0,0.2\n");
+  write_log("slow.csv", 2, 2);
+  write_bench();
+  folder_.write("copy.csv", read(folder_ / "slow.csv"));
+  expect_refused([&] { check_logs(bench({"slow.csv", "copy.csv"})); }, "name each log once");
 }
 
 TEST_F(Bench, RefusesWhatCannotBeFitted) {
@@ -167,11 +187,16 @@ TEST_F(Bench, RefusesWhatCannotBeFitted) {
   write_bench();
   std::vector<BenchLog> logs = bench({"slow.csv", "fast.csv"});
   expect_refused([&] { hold_out(logs, {"none*"}, 0, 1); }, "no log matches 'none*'");
-  expect_refused([&] { hold_out(logs, {"fast"}, 0, 1); }, "1 of 2 logs is left to fit; expected at least 2");
+  expect_refused([&] { hold_out(logs, {"fast"}, 0, 1); }, "1 of 2 logs would be fitted; expected at least 2");
   expect_refused([&] { hold_out(logs, {}, 0.5, 1); }, "expected at least 2");
   hold_out(logs, {}, 0.25, 1);
-  expect_refused([&] { check_peaks(logs, Logged::angle, 20); }, "20 keys cannot be told from");
-  expect_refused([&] { check_peaks(logs, Logged::torque, 1); }, "no column of the bench has the torque");
+  const std::vector<Key> usual = fitted_keys(logs[0].scenario, {});
+  std::vector<Key> many;
+  for (int k = 0; k < 4; ++k) many.insert(many.end(), usual.begin(), usual.end());
+  expect_refused([&] { check_fit(logs, Logged::angle, many); }, "24 keys cannot be told from");
+  expect_refused([&] { check_fit(logs, Logged::torque, {usual[0]}); }, "no column of the bench has the torque");
+  logs[0].of_table = {"actuator.stall_torque=1"};
+  expect_refused([&] { check_fit(logs, Logged::angle, {usual[0]}); }, "actuator.stall_torque has a value per log in the table");
   const auto keys = [&](const std::string& asked) { return fitted_keys(logs[0].scenario, {asked}); };
   expect_refused([&] { keys("actuator.stal_torque"); }, "did you mean 'actuator.stall_torque'?");
   expect_refused([&] { keys("controller.latency"); }, "expected a range, as in --fit controller.latency=LOW:HIGH");
