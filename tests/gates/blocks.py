@@ -29,6 +29,7 @@ NOT_RUN = {
     'CONTRIBUTING.md': 'stages of ./lab', 'tests/README.md': 'npm', 'docs/benchmarks.md': 'a quarter of an hour', 'docs/ci.md': 'Install.Gate',
     'docs/tutorials/write-a-cpg.md': 'Install.Gate', 'docs/tutorials/optuna.md': 'Python.Gate', 'docs/python.md': 'Python.tests',
     'docs/validation.md': 'writes the page', './lab ': 'builds', 'export STUDY': 'Slurm.Gate, Mpi.Gate',
+    'gaitlab identify xl330': 'logs of a bench, minutes of CPU time',
 }
 PLACEHOLDER = re.compile(r'\b(DIR|FILE|KEYS|SCENARIO|RUN|NAME|PROGRAM)\b')
 SLOW = re.compile(r'gaitlab (optimize|sweep|remedy scenarios/hexapod.yaml --set cpg)')
