@@ -11,8 +11,7 @@ StepError::StepError(const StateLayout& layout, std::vector<double> accuracy, st
       accuracy_(std::move(accuracy)),
       apart_(kDifferences),
       jumps_(std::move(jumps)),
-      torque_(layout.joints * layout.lanes),
-      difference_(torque_.size()) {
+      torque_(layout.joints * layout.lanes) {
   for (Interval* one : {&of_run_, &of_companion_}) {
     for (std::vector<double>* values : {&one->mean, &one->finest, &one->change}) values->assign(torque_.size(), 0.0);
     one->stops.assign(layout.lanes, 0.0);
@@ -74,8 +73,7 @@ void StepError::compare(Companion which, In torque, double factor, double weight
   if (stops) end(apart.companion, torque, speed, of_companion_);
   for (std::size_t i = 0; i < torque_.size(); ++i) {
     const std::size_t lane = i % layout_.lanes;
-    double& difference = difference_[i];
-    difference = factor * std::abs(torque_[i] - torque[i]);
+    double difference = factor * std::abs(torque_[i] - torque[i]);
     if (difference != 0 && which == Companion::twin) sloped_[lane] = 1;
     if (stops && of_run_.stops[lane] + of_companion_.stops[lane] > 0) {
       const double jump = std::max(of_run_.change[i], of_companion_.change[i]);
@@ -86,9 +84,11 @@ void StepError::compare(Companion which, In torque, double factor, double weight
     apart.squares[i] += weight * difference * difference;
   }
   apart.count[0] += weight;
+  // The stop of a joint at another time is not an event.
   for (std::size_t lane = 0; lane < layout_.lanes; ++lane) {
     const double least = least_peak(lane);
-    for (std::size_t i = lane; i < torque_.size(); i += layout_.lanes) look_for_event(apart, i, difference_[i], least, t);
+    for (std::size_t i = lane; i < torque_.size(); i += layout_.lanes)
+      look_for_event(apart, i, factor * std::abs(torque_[i] - torque[i]), least, t);
   }
 }
 

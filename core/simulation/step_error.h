@@ -125,8 +125,8 @@ class StepError {
   Out peaks_;   ///< joint * lanes + lane: largest torque so far, N m
   std::vector<double> jumps_;
   Course run_;
-  std::vector<double> torque_, difference_;  ///< scratch: torques of the last see(); differences times factor, N m
-  Interval of_run_, of_companion_;           ///< scratch
+  std::vector<double> torque_;      ///< scratch: torques of the last see(), N m
+  Interval of_run_, of_companion_;  ///< scratch
 };
 
 }  // namespace gaitlab
