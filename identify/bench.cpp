@@ -166,11 +166,12 @@ class LogCheck {
     const double span = *high - *low;
     if (span < kStill) return add("the angle spans {:.3g} rad; expected a motion of at least {:.3g} rad", span, kStill);
     const bool whole = std::ranges::all_of(angle, [](double one) { return one == std::round(one); });
-    if (span > kTurns && whole)
+    if (span > kTurns && whole) {
       return add(
           "the angles are whole numbers from {:.6g} to {:.6g}, which look like ticks; expected rad, with the ticks per rad "
           "as scale, such as 651.9 for 4096 per turn",
           *low, *high);
+    }
     if (span > kTurns)
       return add("the angles span {:.4g}, which look like degrees; expected rad, with 57.29578 as scale", span);
     check_jumps(angle);
@@ -188,15 +189,17 @@ class LogCheck {
     for (std::size_t k = 1; k < angle.size(); ++k) {
       if (std::abs(angle[k] - angle[k - 1]) > fastest * std::max(apart[k - 1], usual)) rows.push_back(std::to_string(k + 1));
     }
-    if (!rows.empty())
+    if (!rows.empty()) {
       add("the angle jumps faster than {:.3g} rad/s, {:.0f} times the speed of the motor, at row{} {}; remove these rows",
           fastest, kTooFast, rows.size() == 1 ? "" : "s", joined(rows));
+    }
   }
 
   void check_current(const std::vector<double>& current) {
-    if (const double most = largest(current); most > kTooMuch * motor_->u_max / motor_->R)
+    if (const double most = largest(current); most > kTooMuch * motor_->u_max / motor_->R) {
       add("the current reaches {:.4g} A, {:.0f} times that of the stalled motor; expected A: mA have 1000 as scale", most,
           most / (motor_->u_max / motor_->R));
+    }
   }
 
   void check_duty(const std::vector<double>& duty) {
@@ -272,24 +275,27 @@ void check_fit(const std::vector<BenchLog>& logs, Logged kind, const std::vector
   std::size_t peaks = 0;
   for (const BenchLog& log : logs) {
     const auto& joints = log.scenario.measured.log->joints;
-    if (std::ranges::all_of(joints, [&](const MeasuredLog::OfJoint& joint) { return joint.of(kind).empty(); }))
+    if (std::ranges::all_of(joints, [&](const MeasuredLog::OfJoint& joint) { return joint.of(kind).empty(); })) {
       throw InputError(SourceLocation{log.file},
                        fmt::format("no column of the bench has the {}; expected one for a joint in measured.columns",
                                    logged_kinds()[static_cast<std::size_t>(kind)].key));
+    }
     for (const Key& key : keys) {
       const auto states = [&](const std::string& set) { return set.starts_with(key.name + "="); };
-      if (std::ranges::any_of(log.of_table, states))
+      if (std::ranges::any_of(log.of_table, states)) {
         throw InputError(SourceLocation{"--fit"},
                          fmt::format("{} has a value per log in the table, and cannot be fitted", key.name));
+      }
     }
     if (log.held_out) continue;
     for (const MeasuredLog::OfJoint& joint : joints) peaks += reversals(joint.of(kind), kOfSpan);
   }
-  if (peaks < keys.size())
+  if (peaks < keys.size()) {
     throw InputError(SourceLocation{"--fit"},
                      fmt::format("{} cannot be told from {} in the fitted logs; fit fewer keys, or log "
                                  "more motion",
                                  counted(keys.size(), "key"), counted(peaks, "reversal")));
+  }
 }
 
 void hold_out(std::vector<BenchLog>& logs, const std::vector<std::string>& patterns, double share, std::int64_t seed) {
@@ -312,14 +318,16 @@ void hold_out(std::vector<BenchLog>& logs, const std::vector<std::string>& patte
     constexpr std::size_t kFew = 3;
     auto out = static_cast<std::size_t>(share * static_cast<double>(order.size()));
     if (share > 0 && out == 0 && order.size() >= kFew) out = 1;
-    for (BenchLog& log : logs)
+    for (BenchLog& log : logs) {
       log.held_out = std::ranges::any_of(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(out),
                                          [&](const auto& one) { return one.second == log.group; });
+    }
   }
   const auto fitted = std::ranges::count(logs, false, &BenchLog::held_out);
-  if (fitted < 2)
+  if (fitted < 2) {
     throw InputError(SourceLocation{patterns.empty() ? "--share" : "--hold-out"},
                      fmt::format("{} of {} would be fitted; expected at least 2", fitted, counted(logs.size(), "log")));
+  }
 }
 
 }  // namespace gaitlab::identify

@@ -40,9 +40,10 @@ ErrorModels::ErrorModels(const std::vector<BenchLog>& logs, const std::vector<Ke
   double count = 0;
   const std::vector<Compared> bench = compared(Point{});
   for (std::size_t l = 0; l < logs.size(); ++l) {
-    if (!bench[l].errors)
+    if (!bench[l].errors) {
       throw RunError(fmt::format("log {}: the run of the bench does not reach the end of the log; run the bench to see why",
                                  logs[l].name));
+    }
     if (logs[l].held_out) continue;
     sum += bench[l].errors->mean(kind, &report::LogError::mae).value_or(0);
     ++count;

@@ -71,9 +71,10 @@ class Findings {
   }
 
   void add_failures() {
-    if (made_.starts > 1 && 2 * made_.agreed < made_.starts)
+    if (made_.starts > 1 && 2 * made_.agreed < made_.starts) {
       add("{} of {} starts end within 2 % of the best: there may be a better fit; state ranges, as in --fit KEY=LOW:HIGH",
           made_.agreed, made_.starts);
+    }
     for (const bool held_out : {false, true}) {
       const auto before = mean_error(logs_, made_.before, made_.kind, held_out);
       const auto after = mean_error(logs_, made_.after, made_.kind, held_out);
@@ -83,9 +84,10 @@ class Findings {
     for (std::size_t l = 0; l < logs_.size(); ++l) {
       for (const report::JointLogErrors& joint : made_.before[l].errors->joints) {
         const auto& angle = joint.of(Logged::angle);
-        if (angle && angle->mae > kStrange * angle->span)
+        if (angle && angle->mae > kStrange * angle->span) {
           add("log {}: the run of the bench is off by {:.2g} times the motion; look at unit, sign and zero of angle and goal",
               logs_[l].name, angle->mae / angle->span);
+        }
       }
     }
   }
@@ -93,12 +95,14 @@ class Findings {
   void add_missing() {
     if (std::ranges::none_of(logs_, &BenchLog::held_out))
       add("no log is held out: the error is that of the logs from which the numbers were taken");
-    if (made_.kind == Logged::angle && fitted("actuator.stall_torque"))
+    if (made_.kind == Logged::angle && fitted("actuator.stall_torque")) {
       add("angles alone are compared: stall_torque is right only as far as the controller's gain is, because their product "
           "moves the joint");
-    if (!logs_[0].freed.empty() && (fitted("actuator.stall_torque") || fitted("actuator.no_load_speed")))
+    }
+    if (!logs_[0].freed.empty() && (fitted("actuator.stall_torque") || fitted("actuator.no_load_speed"))) {
       add("no log has a current: currents and their checks rest on the efficiency of the bench. Its stall current does not "
           "follow from these logs");
+    }
     const auto fits = [](const BenchLog& log) { return !log.held_out; };
     const bool free = std::ranges::any_of(logs_, [&](const BenchLog& log) { return fits(log) && swings_free(log); });
     if (!free && fitted("actuator.viscous_friction"))
@@ -149,9 +153,10 @@ class Findings {
     const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
     std::ranges::nth_element(sorted, middle);
     for (std::size_t l = 0; l < logs_.size(); ++l) {
-      if (errors[l] > kFar * *middle)
+      if (errors[l] > kFar * *middle) {
         add("log {} is {:.1f} times as far off as the median log; look at it before the numbers are used", logs_[l].name,
             errors[l] / *middle);
+      }
       const report::LogErrors& of = *made_.after[l].errors;
       const auto simulated = of.mean(&report::JointLogErrors::at_limit);
       const auto measured = of.mean(&report::JointLogErrors::measured_at_limit);

@@ -111,9 +111,10 @@ std::vector<Key> fitted_keys(const Scenario& bench, const std::vector<std::strin
       key.start = std::clamp(key.start, key.low, key.high);
     } else if (!(key.start > 0)) {
       // From 0 the size of a usual value does not follow. A key that --fit does not name then keeps this value.
-      if (!asked.empty())
+      if (!asked.empty()) {
         problems.add(option, fmt::format("{} is {} in the bench; expected a range, as in --fit {}=LOW:HIGH", name,
                                          number_text(key.start), name));
+      }
       continue;
     } else if (name.find("friction") != std::string::npos) {
       key.low = 0;

@@ -104,9 +104,10 @@ int identify_servo(const IdentifyArguments& a) {
   const Logged kind = std::ranges::find(logged_kinds(), a.quantity, &LoggedKind::key)->kind;
   identify::check_fit(logs, kind, keys);
   const auto odd = std::ranges::find_if_not(keys, identify::holds_in_servo_file);
-  if (!a.to.empty() && odd != keys.end())
+  if (!a.to.empty() && odd != keys.end()) {
     throw InputError(SourceLocation{"--to"},
                      fmt::format("a servo file cannot state {}; without --to its value is printed", odd->name));
+  }
   const StopOnSignal stop(StopOnSignal::Second::ends_the_process);
   Identified made;
   try {
