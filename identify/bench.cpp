@@ -120,15 +120,17 @@ std::vector<std::string> start_of(const Scenario& scenario) {
   return sets;
 }
 
-/// Settings that state the efficiency of a servo instead of its stall current: a stated stall current bounds the product of
-/// torque and speed, and logs without currents do not tell it.
-std::vector<std::string> free_current(const Scenario& scenario) {
+/// Efficiency to be stated instead of a stall current; nothing if the bench has none, or the logs have currents.
+std::optional<double> freed_efficiency(const Scenario& scenario) {
   const SettingsNumbers numbers(scenario.actuator);
   const SettingsNumbers::Found* const stall = numbers.find("stall_current");
   const auto logged = [](const MeasuredLog::OfJoint& joint) { return !joint.of(Logged::current).empty(); };
   if (stall == nullptr || !(stall->value[0] > 0) || std::ranges::any_of(scenario.measured.log->joints, logged)) return {};
-  const double efficiency = make_motors(scenario)->dc_motors()[scenario.measured.log->joints[0].joint].efficiency;
-  return {"actuator.stall_current=0", fmt::format("actuator.efficiency={:.4g}", efficiency)};
+  const std::unique_ptr<Actuator> motors = make_motors(scenario);
+  const DcMotor* const dc = motors->dc_motors();
+  if (dc == nullptr) return {};
+  constexpr double kDigits = 1e4;
+  return std::round(kDigits * dc[scenario.measured.log->joints[0].joint].efficiency) / kDigits;
 }
 
 /// Faults of the numbers of a log, by the motor that it should be of.
@@ -243,8 +245,11 @@ std::vector<BenchLog> read_bench(const std::string& file, const std::vector<std:
       log.hash = hash128(read_file(entry.file, kMostScenario));
       const Scenario as_stated = read_scenario(file, log.sets, catalog);
       std::ranges::move(start_of(as_stated), std::back_inserter(log.sets));
-      log.freed = free_current(as_stated);
-      std::ranges::copy(log.freed, std::back_inserter(log.sets));
+      log.efficiency = freed_efficiency(as_stated);
+      if (log.efficiency) {
+        log.sets.emplace_back("actuator.stall_current=0");
+        log.sets.push_back("actuator.efficiency=" + number_text(*log.efficiency));
+      }
       log.with = std::make_unique<ScenarioTemplate>(file, log.sets, catalog);
       log.scenario = log.with->with({});
       made.push_back(std::move(log));
@@ -291,10 +296,9 @@ void check_fit(const std::vector<BenchLog>& logs, Logged kind, const std::vector
     for (const MeasuredLog::OfJoint& joint : joints) peaks += reversals(joint.of(kind), kOfSpan);
   }
   if (peaks < keys.size()) {
-    throw InputError(SourceLocation{"--fit"},
-                     fmt::format("{} cannot be told from {} in the fitted logs; fit fewer keys, or log "
-                                 "more motion",
-                                 counted(keys.size(), "key"), counted(peaks, "reversal")));
+    throw InputError(SourceLocation{"--fit"}, fmt::format("{} cannot follow from {} in the fitted logs; fit fewer keys, or log "
+                                                          "more motion",
+                                                          counted(keys.size(), "key"), counted(peaks, "reversal")));
   }
 }
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include "core/settings/wording.h"
@@ -48,8 +47,9 @@ ErrorModels::ErrorModels(const std::vector<BenchLog>& logs, const std::vector<Ke
     sum += bench[l].errors->mean(kind, &report::LogError::mae).value_or(0);
     ++count;
   }
-  constexpr double kPart = 0.5;  // chosen: widths of 10 and 30 mrad end within 1 mrad of one another on 16 logs of an XL330
-  width_ = std::max(kPart * sum / count, std::numeric_limits<double>::min());
+  constexpr double kPart = 0.5;    // chosen: widths of 10 and 30 mrad end within 1 mrad of one another on 16 logs of an XL330
+  constexpr double kLeast = 1e-9;  // far below any log: a bench without an error gives no width
+  width_ = std::max(kPart * sum / count, kLeast);
 }
 
 double ErrorModels::scale(std::size_t key) const {

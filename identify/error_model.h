@@ -20,7 +20,6 @@ namespace gaitlab::identify {
 struct Point {
   std::vector<std::size_t> keys;  ///< indices into the list of all keys
   Eigen::VectorXd values;         ///< one per key, in its unit
-  bool operator==(const Point&) const = default;
 };
 
 /// Error of a log about a point: the mean of 2 b^2 (sqrt(1 + (r / b)^2) - 1) over its rows and joints, which is r^2 for small

@@ -20,23 +20,23 @@ constexpr double kFar = 2;         // times the median error of the logs; chosen
 constexpr double kStrange = 0.5;   // of the span of the angles; chosen
 constexpr double kReached = 0.98;  // of a limit; chosen
 
-/// The measurement that tells two keys apart.
+/// A measurement that separates two keys.
 struct Remedy {
   const char *one, *other, *text;
 };
 constexpr Remedy kRemedies[] = {
-    {"actuator.no_load_speed", "actuator.viscous_friction", "a log without torque (`on` = 0) that swings tells them apart"},
-    {"actuator.stall_torque", "actuator.load_friction", "a load that is lowered slowly tells them apart"},
-    {"actuator.stall_torque", "actuator.no_load_speed", "fast motion without a load tells them apart"},
-    {"actuator.dry_friction", "actuator.viscous_friction", "slow and fast motion in one log tell them apart"},
-    {"actuator.rotor_inertia", "controller.latency", "a step of the set point at a high sampling rate tells them apart"},
+    {"actuator.no_load_speed", "actuator.viscous_friction", "needed: a log that swings without torque (`on` = 0)"},
+    {"actuator.stall_torque", "actuator.load_friction", "needed: a load that is lowered slowly"},
+    {"actuator.stall_torque", "actuator.no_load_speed", "needed: fast motion without a load"},
+    {"actuator.dry_friction", "actuator.viscous_friction", "needed: slow and fast motion in one log"},
+    {"actuator.rotor_inertia", "controller.latency", "needed: a step of the set point at a high sampling rate"},
 };
 
 const char* remedy(const std::string& one, const std::string& other) {
   for (const Remedy& row : kRemedies) {
     if ((row.one == one && row.other == other) || (row.one == other && row.other == one)) return row.text;
   }
-  return "a log in which only one of them matters tells them apart";
+  return "needed: a log that depends on one of them only";
 }
 
 /// True if a log has rows without torque.
@@ -99,7 +99,7 @@ class Findings {
       add("angles alone are compared: stall_torque is right only as far as the controller's gain is, because their product "
           "moves the joint");
     }
-    if (!logs_[0].freed.empty() && (fitted("actuator.stall_torque") || fitted("actuator.no_load_speed"))) {
+    if (logs_[0].efficiency && (fitted("actuator.stall_torque") || fitted("actuator.no_load_speed"))) {
       add("no log has a current: currents and their checks rest on the efficiency of the bench. Its stall current does not "
           "follow from these logs");
     }
@@ -111,7 +111,7 @@ class Findings {
 
   void add_trades() {
     const std::vector<std::size_t>& of = made_.best.at.keys;
-    if (made_.best.logs.size() <= of.size()) return;  // too few logs: leaving out one each gives no correlation
+    if (made_.best.logs.size() <= of.size()) return;  // the jackknife of so few logs has only correlations of 1
     for (Eigen::Index i = 0; i < made_.correlation.rows(); ++i) {
       for (Eigen::Index j = 0; j < i; ++j) {
         const double r = made_.correlation(i, j);
@@ -128,7 +128,7 @@ class Findings {
       const double half = (one.high - one.low) / 2;
       const Key& key = keys_[one.key];
       if (one.at_bound) {
-        add("{} is at a bound of its range, {} to {} {}; it has no interval", key.name, number_text(key.low),
+        add("{} is at a bound of its range, {} to {} {}; without an interval", key.name, number_text(key.low),
             number_text(key.high), key.unit);
       } else if (one.fitted && half > kWide * std::abs(one.value)) {
         add("{} is known to +- {:.2g} {} only", key.name, half, key.unit);

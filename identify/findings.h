@@ -1,4 +1,4 @@
-// Limits of an identification: what the logs leave open, and where the fitted model differs from them.
+// Limits of an identification: numbers that do not follow from the logs, and logs from which the fit differs.
 #pragma once
 #include <string>
 #include <vector>
@@ -7,8 +7,8 @@
 
 namespace gaitlab::identify {
 
-/// Sentences for a person: keys that trade with others, keys with wide intervals, quantities that no log has, limits that no
-/// log reaches, logs with other times at the limit or errors far above those of the others.
+/// Sentences for the terminal: keys that trade with others, keys with wide intervals or at a bound, quantities missing in the
+/// logs, limits that no log reaches, logs with other times at the limit or far larger errors than the others.
 std::vector<std::string> findings(const Identified& made, const std::vector<BenchLog>& logs, const std::vector<Key>& keys);
 
 }  // namespace gaitlab::identify

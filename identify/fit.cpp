@@ -54,7 +54,7 @@ struct Descent {
     const double cost = mean_cost(models);
     ++fit.rounds;
     if (first && !std::isfinite(cost)) {
-      fit.cost = cost;
+      fit.cost = std::numeric_limits<double>::infinity();
       ended = true;
       return;
     }
@@ -73,12 +73,6 @@ struct Descent {
 };
 
 }  // namespace
-
-double Fit::mae() const {
-  double sum = 0;
-  for (const ErrorModel& model : models) sum += model.mae;
-  return sum / static_cast<double>(models.size());
-}
 
 bool at_bound(const Key& key, double value) { return value <= key.low || value >= key.high; }
 

@@ -15,7 +15,6 @@ struct Fit {
   std::vector<ErrorModel> models = {};  ///< of these logs at `at`; empty if no run at the start was whole
   double cost = 0;                      ///< mean of ErrorModel::cost over these logs, infinite if a run is not whole
   int rounds = 0;
-  [[nodiscard]] double mae() const;  ///< mean over the logs
 };
 
 /// Minimises the cost of each fit by Levenberg and Marquardt's method within the ranges of the keys:

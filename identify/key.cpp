@@ -19,9 +19,16 @@ namespace gaitlab::identify {
 namespace {
 
 constexpr double kSpread = 20;  // chosen: data sheets are wrong by factors, not by orders of magnitude
-constexpr const char* kUsual[] = {"actuator.stall_torque", "actuator.no_load_speed",    "actuator.rotor_inertia",
-                                  "actuator.dry_friction", "actuator.viscous_friction", "actuator.load_friction",
-                                  "controller.latency"};
+/// A key that is fitted if none is named.
+struct UsualKey {
+  const char* name;
+  bool from_zero = false;  ///< true if 0 is a usual value
+  bool of_ticks = false;   ///< true if it counts in whole control periods
+};
+constexpr UsualKey kUsual[] = {{"actuator.stall_torque"},           {"actuator.no_load_speed"},
+                               {"actuator.rotor_inertia"},          {"actuator.dry_friction", true},
+                               {"actuator.viscous_friction", true}, {"actuator.load_friction", true},
+                               {"controller.latency", true, true}};
 
 struct Number {
   std::string unit;
@@ -61,8 +68,8 @@ std::vector<Key> fitted_keys(const Scenario& bench, const std::vector<std::strin
   for (const auto& one : known) names.push_back(one.first);
   std::vector<std::string> wanted = asked;
   if (wanted.empty()) {
-    for (const char* usual : kUsual) {
-      if (std::ranges::find(names, usual) != names.end()) wanted.emplace_back(usual);
+    for (const UsualKey& usual : kUsual) {
+      if (std::ranges::find(names, usual.name) != names.end()) wanted.emplace_back(usual.name);
     }
   }
   Problems problems;
@@ -94,12 +101,15 @@ std::vector<Key> fitted_keys(const Scenario& bench, const std::vector<std::strin
     }
     const double start = value[of_joint == joints.end() ? 0 : static_cast<std::size_t>(of_joint - joints.begin())];
     Key key{name, at->second.unit, start, start, start / kSpread, start * kSpread};
-    if (name == "actuator.i_max" && key.start == 0 && bench.actuator.entry != nullptr) {
+    if (name == "actuator.i_max" && key.start == 0) {  // not stated: the current at stall
       const std::unique_ptr<Actuator> motors = make_motors(bench);
-      key.start = motors->dc_motors()[0].i_max;
+      if (const DcMotor* const dc = motors->dc_motors(); dc != nullptr) key.start = dc[0].i_max;
       key.low = key.start / kSpread;
       key.high = key.start * kSpread;
     }
+    const auto* const usual = std::ranges::find(kUsual, common, &UsualKey::name);
+    if (usual != std::end(kUsual) && usual->from_zero) key.low = 0;
+    if (usual != std::end(kUsual) && usual->of_ticks) key.least = bench.control_period;
     if (equals != std::string::npos) {
       const auto range = range_of(text.substr(equals + 1));
       if (!range) {
@@ -116,12 +126,6 @@ std::vector<Key> fitted_keys(const Scenario& bench, const std::vector<std::strin
                                          number_text(key.start), name));
       }
       continue;
-    } else if (name.find("friction") != std::string::npos) {
-      key.low = 0;
-    }
-    if (name == "controller.latency") {
-      key.low = 0;
-      key.least = bench.control_period;  // a latency counts in whole control periods
     }
     keys.push_back(std::move(key));
   }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 
 #include "core/files/hash.h"
 #include "core/robot_files/servo_file.h"
@@ -23,6 +24,11 @@ void remove(Node& map, const std::string& key) {
   if (static_cast<std::size_t>(at) == map.keys.size()) return;
   map.keys.erase(map.keys.begin() + at);
   map.items.erase(map.items.begin() + at);
+}
+
+void put(Node& map, const std::string& key, double value) {
+  map.keys.emplace_back(key, SourceLocation{});
+  map.items.push_back(scalar_node(number_text(value)));
 }
 
 /// Actuator and controller of the bench, with the keys of the servo file that they name, without keys of the robot.
@@ -68,8 +74,7 @@ void take_values(Node& map, const std::string& section, const Identified& made, 
       remove(map, key);
       std::erase(sources.stated, key);
     }
-    map.keys.emplace_back(key, SourceLocation{});
-    map.items.push_back(scalar_node(number_text(one.value)));
+    put(map, key, one.value);
     (one.fitted ? sources.fitted : sources.kept).push_back(key);
   }
 }
@@ -111,7 +116,8 @@ std::string servo_text(const std::string& name, const std::string& file, const s
   Node motors = motors_of(file, sets);
   std::string text = fmt::format(
       "# Servo whose numbers follow from logs: gaitlab identify.\ngaitlab_servo: 1\nname: {}\nsources:\n", yaml_text(name));
-  std::string maps, of_stated = "stated in the bench";
+  std::string maps;
+  std::optional<std::string> of_stated;
   Keys sources;
   for (std::size_t i = 0; i < motors.items.size(); ++i) {
     const std::string& section = motors.keys[i].first;
@@ -120,25 +126,22 @@ std::string servo_text(const std::string& name, const std::string& file, const s
     if (section == "controller" && (type == nullptr || type->text != "rc_servo")) continue;  // not the servo's own
     if (const Node* const source = map.find("source")) of_stated = source->text;
     remove(map, "source");
-    if (section == "actuator" && !logs[0].freed.empty()) {
-      remove(map, "stall_current");
-      map.keys.emplace_back("efficiency", SourceLocation{});
-      map.items.push_back(scalar_node(logs[0].freed.back().substr(logs[0].freed.back().find('=') + 1)));
-    }
     take_values(map, section, made, keys, sources);
+    if (section == "actuator" && logs[0].efficiency) {
+      remove(map, "stall_current");
+      std::erase(sources.stated, "stall_current");
+      put(map, "efficiency", *logs[0].efficiency);
+      sources.kept.emplace_back("efficiency");
+    }
     map.flow = false;
     maps += section + ":\n" + print_yaml(map, 2);
-  }
-  if (!logs[0].freed.empty()) {
-    std::erase(sources.stated, "efficiency");
-    sources.kept.emplace_back("efficiency");
   }
   const auto add = [&](const std::vector<std::string>& of, const char* kind, const std::string& why) {
     if (!of.empty()) text += fmt::format("  - {{of: [{}], kind: {}, text: {}}}\n", fmt::join(of, ", "), kind, yaml_text(why));
   };
   add(sources.fitted, "identified", source_text(made, logs));
-  add(sources.kept, "chosen", "value of the bench, which these logs do not tell");
-  add(sources.stated, of_stated == "stated in the bench" ? "chosen" : "data sheet", of_stated);
+  add(sources.kept, "chosen", "value of the bench; it does not follow from these logs");
+  add(sources.stated, of_stated ? "data sheet" : "chosen", of_stated.value_or("stated in the bench"));
   return text + maps;
 }
 

@@ -17,9 +17,9 @@ std::string source_text(const Identified& made, const std::vector<BenchLog>& log
 bool holds_in_servo_file(const Key& key);
 
 /// Servo file `name` (core/robot_files/servo_file.h): the keys of actuator and controller that the bench `file` with the
-/// settings `sets` states, with the fitted values, and with the bench's value of keys that
-/// were tried and dropped. Each key holds_in_servo_file(). Keys of the supply and of the controller's clock are left out,
-/// because they belong to the robot. Throws InputError if the bench cannot be read.
+/// settings `sets` states, with the fitted values, and with the bench's value of keys that were tried and dropped. Each key
+/// holds_in_servo_file(). Keys of the supply and of the controller's clock are left out, because they belong to the robot.
+/// Throws InputError if the bench cannot be read.
 std::string servo_text(const std::string& name, const std::string& file, const std::vector<std::string>& sets,
                        const Identified& made, const std::vector<BenchLog>& logs, const std::vector<Key>& keys);
 

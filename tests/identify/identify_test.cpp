@@ -97,7 +97,8 @@ TEST_F(Bench, FindsTheNumbersOfItsOwnLogs) {
   hold_out(logs, {"stiff"}, 0, 1);
   const std::vector<Key> keys = fitted_keys(logs[0].scenario, {"actuator.stall_torque", "actuator.dry_friction"});
   const Identified made = identified(logs, keys);
-  // An encoder of 12 bits, and two logs: the intervals have a single degree of freedom.
+  // A tick of the encoder is 2e-3 of the motion, and errors of some hundred rows average out; friction moves it a tenth as
+  // much.
   EXPECT_NEAR(made.keys[0].value, kTorque, 0.005 * kTorque);
   EXPECT_NEAR(made.keys[1].value, kDry, 0.02 * kDry);
   EXPECT_LT(made.keys[0].low, made.keys[0].value);
@@ -193,7 +194,7 @@ TEST_F(Bench, RefusesWhatCannotBeFitted) {
   const std::vector<Key> usual = fitted_keys(logs[0].scenario, {});
   std::vector<Key> many;
   for (int k = 0; k < 4; ++k) many.insert(many.end(), usual.begin(), usual.end());
-  expect_refused([&] { check_fit(logs, Logged::angle, many); }, "24 keys cannot be told from");
+  expect_refused([&] { check_fit(logs, Logged::angle, many); }, "24 keys cannot follow from");
   expect_refused([&] { check_fit(logs, Logged::torque, {usual[0]}); }, "no column of the bench has the torque");
   logs[0].of_table = {"actuator.stall_torque=1"};
   expect_refused([&] { check_fit(logs, Logged::angle, {usual[0]}); }, "actuator.stall_torque has a value per log in the table");
