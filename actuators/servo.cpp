@@ -50,7 +50,7 @@ A servo therefore lifts at most eta T0 - dry, and holds at most T0 / eta + dry. 
     dry_friction      3 % of T0            viscous_friction  10 % of T0 / w0
     rotor_inertia     0.03 s T0 / w0       load_friction     0.15 (eta 0.74)
 
-With these defaults, and nothing fitted, angles of 16 logs of an XL330 are 42 mrad off on average (184 mrad by the line alone).
+With these defaults, and nothing fitted, angles of 16 logs of an XL330 are 43 mrad off on average (182 mrad by the line alone).
 stall_torque_at: joint takes T0 and w0 as what the driven joint gives: right for ratings, numbers of a simulator, and numbers
 chosen for what a robot does. The motor's line is then raised by the losses. The bare line: all four 0.
 

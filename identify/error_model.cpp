@@ -15,41 +15,55 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Differences simulated - measured of all joints, one after another; empty if the run did not reach its end.
-VectorXd residuals(const Scenario& scenario, const Recording& recording, Logged kind) {
+/// Differences (simulated - measured) / width of all joints and quantities, one after another; empty if the run did not reach
+/// its end.
+VectorXd residuals(const Scenario& scenario, const Recording& recording, const std::vector<Logged>& kinds,
+                   const std::vector<double>& widths) {
   if (!recording.outcome.done()) return {};
   std::vector<double> all;
   const MeasuredLog& log = *scenario.measured.log;
   for (const MeasuredLog::OfJoint& joint : log.joints) {
-    const std::vector<double>& measured = joint.of(kind);
-    if (measured.empty()) continue;
-    const std::vector<double> simulated = report::at_log(scenario, recording, joint.joint, kind);
-    if (simulated.size() < measured.size()) return {};
-    for (std::size_t k = 0; k < measured.size(); ++k) all.push_back(simulated[k] - measured[k]);
+    for (std::size_t i = 0; i < kinds.size(); ++i) {
+      const std::vector<double>& measured = joint.of(kinds[i]);
+      if (measured.empty()) continue;
+      const std::vector<double> simulated = report::at_log(scenario, recording, joint.joint, kinds[i]);
+      if (simulated.size() < measured.size()) return {};
+      for (std::size_t k = 0; k < measured.size(); ++k) all.push_back((simulated[k] - measured[k]) / widths[i]);
+    }
   }
   return Eigen::Map<const VectorXd>(all.data(), static_cast<Eigen::Index>(all.size()));
 }
 
 }  // namespace
 
-ErrorModels::ErrorModels(const std::vector<BenchLog>& logs, const std::vector<Key>& keys, Logged kind, int threads,
-                         std::atomic<bool>& stop)
-    : logs_(logs), keys_(keys), kind_(kind), threads_(threads), stop_(stop) {
+std::optional<double> mean_error(const std::vector<BenchLog>& logs, const std::vector<Compared>& runs, Logged kind,
+                                 bool held_out) {
   double sum = 0;
-  double count = 0;
+  std::size_t count = 0;
+  for (std::size_t l = 0; l < logs.size(); ++l) {
+    if (logs[l].held_out != held_out) continue;
+    sum += error_of(runs[l], kind);
+    ++count;
+  }
+  return count == 0 ? std::nullopt : std::optional(sum / static_cast<double>(count));
+}
+
+double error_of(const Compared& run, Logged kind) { return run.errors->mean(kind, &report::LogError::mae).value_or(0); }
+
+ErrorModels::ErrorModels(const std::vector<BenchLog>& logs, const std::vector<Key>& keys, std::vector<Logged> kinds,
+                         int threads, std::atomic<bool>& stop)
+    : logs_(logs), keys_(keys), kinds_(std::move(kinds)), threads_(threads), stop_(stop) {
   const std::vector<Compared> bench = compared(Point{});
   for (std::size_t l = 0; l < logs.size(); ++l) {
     if (!bench[l].errors) {
       throw RunError(fmt::format("log {}: the run of the bench does not reach the end of the log; run the bench to see why",
                                  logs[l].name));
     }
-    if (logs[l].held_out) continue;
-    sum += bench[l].errors->mean(kind, &report::LogError::mae).value_or(0);
-    ++count;
   }
   constexpr double kPart = 0.5;    // chosen: widths of 10 and 30 mrad end within 1 mrad of one another on 16 logs of an XL330
   constexpr double kLeast = 1e-9;  // far below any log: a bench without an error gives no width
-  width_ = std::max(kPart * sum / count, kLeast);
+  for (const Logged kind : kinds_)
+    widths_.push_back(std::max(kPart * mean_error(logs, bench, kind, false).value_or(0), kLeast));
 }
 
 double ErrorModels::scale(std::size_t key) const {
@@ -146,7 +160,9 @@ std::vector<ErrorModel> ErrorModels::operator()(std::span<const Question> questi
         const Question& of = questions[parts[i].question];
         return logs_[of.log].with->with(sets_of(varied(of.point, parts[i].varied), keys_));
       },
-      [&](const RolloutEnd& one) { residual[one.rollout.number] = residuals(one.rollout.scenario, one.recording, kind_); });
+      [&](const RolloutEnd& one) {
+        residual[one.rollout.number] = residuals(one.rollout.scenario, one.recording, kinds_, widths_);
+      });
 
   std::vector<ErrorModel> answers;
   for (std::size_t first = 0, q = 0; q < questions.size(); ++q) {
@@ -163,12 +179,12 @@ std::vector<ErrorModel> ErrorModels::operator()(std::span<const Question> questi
         if (other.size() != r.size()) continue;  // no slope: the key stays in this step
         slopes.col(static_cast<Eigen::Index>(varied)) = (other - r) * (scale(point.keys[varied]) / step(point, varied));
       }
-      const Eigen::ArrayXd stretch = (1 + (r.array() / width_).square()).sqrt();
+      const Eigen::ArrayXd stretch = (1 + r.array().square()).sqrt();
       const Eigen::VectorXd weight = stretch.inverse();
       const MatrixXd weighted = weight.asDiagonal() * slopes;
       const MatrixXd local = weight.cwiseProduct(weight).asDiagonal() * weighted;
       model = {true,
-               2 * width_ * width_ * (stretch - 1).mean(),
+               2 * (stretch - 1).mean(),
                r.cwiseAbs().mean(),
                weighted.transpose() * r / rows,
                weighted.transpose() * slopes / rows,

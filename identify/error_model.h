@@ -22,17 +22,19 @@ struct Point {
   Eigen::VectorXd values;         ///< one per key, in its unit
 };
 
-/// Error of a log about a point: the mean of 2 b^2 (sqrt(1 + (r / b)^2) - 1) over its rows and joints, which is r^2 for small
-/// differences r = simulated - measured and 2 b |r| for large ones (pseudo-Huber: P. Charbonnier et al., Deterministic
-/// edge-preserving regularization, 1997, eq. 8), so that a few rows far off do not decide. As a function of the keys:
+/// Error of a log about a point: the mean of 2 (sqrt(1 + r^2) - 1) over its rows, joints and compared quantities, which is r^2
+/// for small differences r = (simulated - measured) / b and 2 |r| for large ones (pseudo-Huber: P. Charbonnier et al.,
+/// Deterministic edge-preserving regularization, 1997, eq. 8), so that a few rows far off do not decide. b is a width for each
+/// quantity. As a function of the keys:
 ///
 ///     cost + 2 gradient . d + d . curvature d        d: change of the keys, each in units of its scale
 ///
-/// gradient = J' W r / n, curvature = J' W J / n with the differences J of the residuals and W = 1 / sqrt(1 + (r / b)^2), whose
-/// parabola is above the error. `local` = J' W^3 J / n is the curvature itself, for intervals.
+/// gradient = J' W r / n, curvature = J' W J / n with the differences J of r and W = 1 / sqrt(1 + r^2), whose parabola is above
+/// the error. `local` = J' W^3 J / n is the curvature itself, for intervals.
 struct ErrorModel {
   bool whole = false;  ///< false if the run was refused or diverged; the other numbers are then 0
-  double cost = 0, mae = 0;
+  double cost = 0;
+  double mae = 0;  ///< mean of |r|
   Eigen::VectorXd gradient;
   Eigen::MatrixXd curvature, local;
 };
@@ -49,15 +51,22 @@ struct Compared {
   double largest_speed = 0;                 ///< rad/s, of the logged joints
 };
 
+/// Mean magnitude of the differences of a run from its log, in the unit of the quantity.
+double error_of(const Compared& run, Logged kind);
+/// Mean of it over the logs that are held out, or over the others; nothing without such logs.
+std::optional<double> mean_error(const std::vector<BenchLog>& logs, const std::vector<Compared>& runs, Logged kind,
+                                 bool held_out);
+
 /// Thrown by ErrorModels if its work was stopped.
 struct Stopped {};
 
 /// Simulator of the logs of a bench at any point.
 class ErrorModels {
  public:
-  /// `kind` is the compared quantity. b is half the mean magnitude of the differences at the values of the bench, over the
-  /// fitted logs. Logs and keys must outlive this object. Throws RunError if a run of the bench does not reach its end.
-  ErrorModels(const std::vector<BenchLog>& logs, const std::vector<Key>& keys, Logged kind, int threads,
+  /// `kinds` are the compared quantities. b is half the mean magnitude of the differences of a quantity at the values of the
+  /// bench, over the fitted logs. Logs and keys must outlive this object. Throws RunError if a run of the bench does not reach
+  /// its end.
+  ErrorModels(const std::vector<BenchLog>& logs, const std::vector<Key>& keys, std::vector<Logged> kinds, int threads,
               std::atomic<bool>& stop);
 
   /// Answers in the order of the questions. Each needs a run for the point and one for each of its keys, which share lanes. The
@@ -69,7 +78,7 @@ class ErrorModels {
 
   [[nodiscard]] const std::vector<Key>& keys() const { return keys_; }
   [[nodiscard]] const std::vector<BenchLog>& logs() const { return logs_; }
-  [[nodiscard]] Logged kind() const { return kind_; }
+  [[nodiscard]] const std::vector<Logged>& kinds() const { return kinds_; }
   [[nodiscard]] std::size_t runs() const { return runs_; }
   /// Unit in which a change of a key is counted: its start value, or a part of its range if that is 0.
   [[nodiscard]] double scale(std::size_t key) const;
@@ -82,11 +91,11 @@ class ErrorModels {
 
   const std::vector<BenchLog>& logs_;
   const std::vector<Key>& keys_;
-  Logged kind_;
+  std::vector<Logged> kinds_;
   int threads_;
   std::atomic<bool>& stop_;
   std::size_t runs_ = 0;
-  double width_ = 0;  ///< b, in the unit of the quantity
+  std::vector<double> widths_;  ///< b of each of kinds_, in its unit
 };
 
 /// The settings of a point in the form of --set: of all keys, because a usual value may follow from another key.

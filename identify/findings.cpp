@@ -75,11 +75,15 @@ class Findings {
       add("{} of {} starts end within 2 % of the best: there may be a better fit; state ranges, as in --fit KEY=LOW:HIGH",
           made_.agreed, made_.starts);
     }
-    for (const bool held_out : {false, true}) {
-      const auto before = mean_error(logs_, made_.before, made_.kind, held_out);
-      const auto after = mean_error(logs_, made_.after, made_.kind, held_out);
-      if (before && *after > *before)
-        add("{} logs are further off than by the bench: do not use the numbers", held_out ? "held-out" : "fitted");
+    for (const Logged kind : made_.kinds) {
+      for (const bool held_out : {false, true}) {
+        const auto before = mean_error(logs_, made_.before, kind, held_out);
+        const auto after = mean_error(logs_, made_.after, kind, held_out);
+        if (before && *after > *before) {
+          add("the {} of {} logs is further off than by the bench: do not use the numbers",
+              logged_kinds()[static_cast<std::size_t>(kind)].key, held_out ? "held-out" : "fitted");
+        }
+      }
     }
     for (std::size_t l = 0; l < logs_.size(); ++l) {
       for (const report::JointLogErrors& joint : made_.before[l].errors->joints) {
@@ -95,7 +99,7 @@ class Findings {
   void add_missing() {
     if (std::ranges::none_of(logs_, &BenchLog::held_out))
       add("no log is held out: the error is that of the logs from which the numbers were taken");
-    if (made_.kind == Logged::angle && fitted("actuator.stall_torque")) {
+    if (made_.kinds == std::vector{Logged::angle} && fitted("actuator.stall_torque")) {
       add("angles alone are compared: stall_torque is right only as far as the controller's gain is, because their product "
           "moves the joint");
     }
@@ -148,7 +152,7 @@ class Findings {
 
   void add_logs() {
     std::vector<double> errors;
-    for (const Compared& run : made_.after) errors.push_back(error_of(run, made_.kind));
+    for (const Compared& run : made_.after) errors.push_back(error_of(run, made_.kinds[0]));
     std::vector<double> sorted = errors;
     const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
     std::ranges::nth_element(sorted, middle);

@@ -68,7 +68,7 @@ Point without(const Point& point, std::size_t position) {
   return less;
 }
 
-/// Mean magnitude of the differences of the fitted logs, each by the fit without its fold. Every fit starts at `start`.
+/// Mean ErrorModel::mae of the fitted logs, each by the fit without its fold. Every fit starts at `start`.
 double left_out_error(ErrorModels& models, const Point& start) {
   const std::vector<std::size_t> fitted = fitted_logs(models.logs());
   const std::vector<std::size_t> folds = folds_of(models.logs(), fitted);
@@ -198,24 +198,10 @@ void choose_keys(Fit& best, std::vector<double>& worth, ErrorModels& models, con
 
 }  // namespace
 
-std::optional<double> mean_error(const std::vector<BenchLog>& logs, const std::vector<Compared>& runs, Logged kind,
-                                 bool held_out) {
-  double sum = 0;
-  std::size_t count = 0;
-  for (std::size_t l = 0; l < logs.size(); ++l) {
-    if (logs[l].held_out != held_out) continue;
-    sum += error_of(runs[l], kind);
-    ++count;
-  }
-  return count == 0 ? std::nullopt : std::optional(sum / static_cast<double>(count));
-}
-
-double error_of(const Compared& run, Logged kind) { return run.errors->mean(kind, &report::LogError::mae).value_or(0); }
-
 Identified identify(ErrorModels& models, const IdentifySettings& settings) {
   const std::vector<Key>& keys = models.keys();
   Identified made;
-  made.kind = models.kind();
+  made.kinds = models.kinds();
   // A key that cannot be set is an error of the user; later, such a scenario is a point that no servo has.
   static_cast<void>(models.logs()[0].with->with(sets_of(start(models, 0, settings.seed), keys)));
   settings.told("starts");

@@ -27,15 +27,9 @@ struct Identified {
   std::vector<IdentifiedKey> keys;      ///< all keys
   Eigen::MatrixXd correlation;          ///< of the fitted keys, in the order of Fit::at
   std::vector<Compared> before, after;  ///< every log by the bench, and by the fit
-  Logged kind = Logged::angle;          ///< the compared quantity
+  std::vector<Logged> kinds;            ///< the compared quantities
   std::size_t runs = 0;
 };
-
-/// Mean magnitude of the differences of a run from its log, in the unit of the quantity.
-double error_of(const Compared& run, Logged kind);
-/// Mean of it over the logs that are held out, or over the others; nothing without such logs.
-std::optional<double> mean_error(const std::vector<BenchLog>& logs, const std::vector<Compared>& runs, Logged kind,
-                                 bool held_out);
 
 struct IdentifySettings {
   std::int64_t seed = 1;

@@ -84,7 +84,8 @@ void take_values(Node& map, const std::string& section, const Identified& made, 
 std::string error_text(double error, Logged kind) {
   constexpr double kMilli = 1e-3;
   if (kind == Logged::angle) return fmt::format("{:.3g} mrad", error / kMilli);
-  return fmt::format("{:.3g} {}", error, logged_kinds()[static_cast<std::size_t>(kind)].unit);
+  const std::string unit = logged_kinds()[static_cast<std::size_t>(kind)].unit;
+  return fmt::format("{:.3g}{}{}", error, unit.empty() ? "" : " ", unit);
 }
 
 std::string source_text(const Identified& made, const std::vector<BenchLog>& logs) {
@@ -99,9 +100,10 @@ std::string source_text(const Identified& made, const std::vector<BenchLog>& log
   }
   std::string text =
       fmt::format("identified from {} (hash {}), fitted to {}, speeds up to {:.3g} rad/s", counted(fitted, "log"), hash(hashes),
-                  error_text(mean_error(logs, made.after, made.kind, false).value_or(0), made.kind), fastest);
-  if (const auto held_out = mean_error(logs, made.after, made.kind, true))
-    text += fmt::format("; held-out error {} on {}", error_text(*held_out, made.kind), counted(logs.size() - fitted, "log"));
+                  error_text(mean_error(logs, made.after, made.kinds[0], false).value_or(0), made.kinds[0]), fastest);
+  if (const auto held_out = mean_error(logs, made.after, made.kinds[0], true))
+    text +=
+        fmt::format("; held-out error {} on {}", error_text(*held_out, made.kinds[0]), counted(logs.size() - fitted, "log"));
   return text;
 }
 

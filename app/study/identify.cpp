@@ -32,7 +32,7 @@ struct IdentifyArguments {
   std::string file;
   std::vector<std::string> logs, sets, fit, held_out;
   double share = 0.25;
-  std::string quantity = "angle";
+  std::vector<std::string> quantities;
   std::string to;
   std::int64_t seed = 1;
   int jobs = 1;
@@ -40,15 +40,16 @@ struct IdentifyArguments {
 };
 
 std::string table_of_errors(const Identified& made, const std::vector<BenchLog>& logs) {
-  std::vector<Cells> rows{
-      {fmt::format("error of the {}", logged_kinds()[static_cast<std::size_t>(made.kind)].key), "logs", "bench", "identified"}};
-  for (const bool held_out : {false, true}) {
-    const auto before = identify::mean_error(logs, made.before, made.kind, held_out);
-    if (!before) continue;
-    rows.push_back({held_out ? "held-out logs" : "fitted logs",
-                    std::to_string(std::ranges::count(logs, held_out, &BenchLog::held_out)),
-                    identify::error_text(*before, made.kind),
-                    identify::error_text(*identify::mean_error(logs, made.after, made.kind, held_out), made.kind)});
+  std::vector<Cells> rows{{"error", "", "logs", "bench", "identified"}};
+  for (const Logged kind : made.kinds) {
+    for (const bool held_out : {false, true}) {
+      const auto before = identify::mean_error(logs, made.before, kind, held_out);
+      if (!before) continue;
+      rows.push_back({logged_kinds()[static_cast<std::size_t>(kind)].key, held_out ? "held-out logs" : "fitted logs",
+                      std::to_string(std::ranges::count(logs, held_out, &BenchLog::held_out)),
+                      identify::error_text(*before, kind),
+                      identify::error_text(*identify::mean_error(logs, made.after, kind, held_out), kind)});
+    }
   }
   return cells_text(rows);
 }
@@ -72,9 +73,11 @@ std::string table_of_logs(const Identified& made, const std::vector<BenchLog>& l
   std::vector<std::size_t> order(logs.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::stable_sort(order, std::greater<>(),
-                           [&](std::size_t l) { return identify::error_of(made.after[l], made.kind); });
+                           [&](std::size_t l) { return identify::error_of(made.after[l], made.kinds[0]); });
   std::vector<Cells> rows{{"log", "", "bench", "identified", "at the limit", "in the log"}};
-  const auto text = [&](const Compared& run) { return identify::error_text(identify::error_of(run, made.kind), made.kind); };
+  const auto text = [&](const Compared& run) {
+    return identify::error_text(identify::error_of(run, made.kinds[0]), made.kinds[0]);
+  };
   const auto share = [](const std::optional<double>& one) { return one ? fmt::format("{:.2f}", *one) : "-"; };
   for (const std::size_t l : order) {
     const report::LogErrors& errors = *made.after[l].errors;
@@ -94,6 +97,28 @@ std::string settings_text(const Identified& made, const std::vector<Key>& keys) 
   return text;
 }
 
+std::vector<std::string> names_of_quantities() {
+  std::vector<std::string> names;
+  for (const LoggedKind& kind : logged_kinds()) names.emplace_back(kind.key);
+  return names;
+}
+
+/// The quantities with these names; without a name the angle, and the duty if all logs have it.
+std::vector<Logged> compared_kinds(const std::vector<std::string>& names, const std::vector<BenchLog>& logs) {
+  std::vector<Logged> kinds;
+  for (const LoggedKind& kind : logged_kinds()) {
+    if (std::ranges::find(names, kind.key) != names.end()) kinds.push_back(kind.kind);
+  }
+  if (!names.empty()) return kinds;
+  const auto has_duty = [](const BenchLog& log) {
+    return std::ranges::any_of(log.scenario.measured.log->joints,
+                               [](const MeasuredLog::OfJoint& joint) { return !joint.of(Logged::duty).empty(); });
+  };
+  kinds = {Logged::angle};
+  if (std::ranges::all_of(logs, has_duty)) kinds.push_back(Logged::duty);
+  return kinds;
+}
+
 int identify_servo(const IdentifyArguments& a) {
   if (!a.to.empty()) check_new(a.to);
   Catalog catalog = standard_catalog();
@@ -101,8 +126,8 @@ int identify_servo(const IdentifyArguments& a) {
   identify::check_logs(logs);
   identify::hold_out(logs, a.held_out, a.share, a.seed);
   const std::vector<Key> keys = identify::fitted_keys(logs[0].scenario, a.fit);
-  const Logged kind = std::ranges::find(logged_kinds(), a.quantity, &LoggedKind::key)->kind;
-  identify::check_fit(logs, kind, keys);
+  const std::vector<Logged> kinds = compared_kinds(a.quantities, logs);
+  for (const Logged kind : kinds) identify::check_fit(logs, kind, keys);
   const auto odd = std::ranges::find_if_not(keys, identify::holds_in_servo_file);
   if (!a.to.empty() && odd != keys.end()) {
     throw InputError(SourceLocation{"--to"},
@@ -111,7 +136,7 @@ int identify_servo(const IdentifyArguments& a) {
   const StopOnSignal stop(StopOnSignal::Second::ends_the_process);
   Identified made;
   try {
-    identify::ErrorModels models(logs, keys, kind, a.jobs, stopped());
+    identify::ErrorModels models(logs, keys, kinds, a.jobs, stopped());
     identify::IdentifySettings settings{.seed = a.seed, .choose = a.fit.empty()};
     settings.told = [&](const std::string& stage) {
       if (!a.quiet) say(fmt::format("{} runs; {}\n", models.runs(), stage));
@@ -166,8 +191,11 @@ void add_identify(Commands& commands) {
             ->allow_extra_args(false);
         command.add_option("--share", a.share, "share of the groups to hold out without --hold-out (default 0.25)")
             ->check(CLI::Range(0.0, 1.0));
-        command.add_option("--of", a.quantity, "compared quantity (default angle)")
-            ->check(CLI::IsMember({"angle", "speed", "voltage", "current", "torque"}));
+        command
+            .add_option("--of", a.quantities,
+                        "compared quantity, once per quantity (default angle, and duty if all logs have it)")
+            ->check(CLI::IsMember(names_of_quantities()))
+            ->allow_extra_args(false);
         command.add_option("--to", a.to, "write the servo to this new file");
         command.add_option("--seed", a.seed, "seed of drawn starts and of the logs held out (default 1)");
         command.add_option("-j,--jobs", a.jobs, "threads (default 1)")->check(CLI::Range(1, kMostThreads));

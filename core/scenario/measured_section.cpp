@@ -27,8 +27,7 @@ constexpr std::array<LoggedKind, kLoggedKinds> kKinds{
      {Logged::voltage, "voltage", "voltage", "V", "Column of the motor's voltage."},
      {Logged::current, "current", "current", "A", "Column of the motor's current."},
      {Logged::torque, "torque", "torque", "N m", "Column of the torque on the joint."},
-     {Logged::duty, "duty", "", "",
-      "Column of the share of the supply that the servo gives to its motor; only the time at its limit, 1, is compared."}}};
+     {Logged::duty, "duty", "voltage_command", "", "Column of the share of the supply that the servo gives to its motor."}}};
 
 /// Place of `columns.JOINT.KEY` of the section, or else of the nearest key above it.
 SourceLocation place_in(const Node& section, const std::string& joint, const char* key) {
@@ -182,7 +181,6 @@ const std::vector<MeasuredBounds::Number>& MeasuredBounds::numbers() {
   static const std::vector<Number> kAll = [] {
     std::vector<Number> all;
     for (const LoggedKind& kind : kKinds) {
-      if (*kind.column == '\0') continue;
       for (const char* number : kErrorNumbers) all.push_back({fmt::format("{}.{}", kind.key, number), kind.unit, kind.kind});
     }
     for (const char* number : kLimitNumbers) all.push_back({number, "", Logged::duty});
@@ -232,8 +230,7 @@ bool MeasuredSettings::reads(const std::string& column) const {
   return any() && std::ranges::any_of(log->joints, [&](const MeasuredLog::OfJoint& of) {
            const auto is = [&](const char* quantity) { return column == fmt::format("joint.{}.{}", of.joint, quantity); };
            const auto compared = [&](const LoggedKind& kind) { return !of.of(kind.kind).empty() && is(kind.column); };
-           return std::ranges::any_of(kKinds, compared) || (!of.of(Logged::duty).empty() && is("voltage_command")) ||
-                  (!of.of(Logged::angle).empty() && is("speed"));
+           return std::ranges::any_of(kKinds, compared) || (!of.of(Logged::angle).empty() && is("speed"));
          });
 }
 

@@ -20,15 +20,14 @@ inline constexpr const char* kMeasuredSection = "measured";
 enum class Logged : std::size_t { angle, speed, voltage, current, torque, duty };
 inline constexpr std::size_t kLoggedKinds = 6;
 
-/// The names of a quantity: its key, and the column joint.N.COLUMN of a trace ("" for none).
+/// The names of a quantity: its key, and the column joint.N.COLUMN of a trace from which its simulated value follows.
 struct LoggedKind {
   Logged kind;
   const char *key, *column, *unit, *about;
 };
 std::span<const LoggedKind, kLoggedKinds> logged_kinds();
 
-/// The numbers measured.QUANTITY.NUMBER of the difference between run and log, and the numbers measured.NUMBER of both. A
-/// quantity without a trace column has none.
+/// The numbers measured.QUANTITY.NUMBER of the difference between run and log, and the numbers measured.NUMBER of both.
 inline constexpr std::array kErrorNumbers{"mae", "rms", "peak"};
 inline constexpr std::array kLimitNumbers{"limit.simulated", "limit.logged"};
 

@@ -70,29 +70,36 @@ LogError error_of(const std::vector<double>& simulated, const std::vector<double
   return made;
 }
 
-/// Share of the log's rows in which the simulated command is at least the voltage that its motor can get.
-std::optional<double> share_at_limit(const Scenario& scenario, const Recording& record, std::size_t joint, double most) {
+/// Duty of a joint at the times of the log.
+std::vector<double> duty_at_log(const Scenario& scenario, const Recording& record, std::size_t joint) {
   const MeasuredLog& log = *scenario.measured.log;
   const Series t = record.series("t");
-  const Series command = record.series(column_of(joint, "voltage_command"));
+  const Series command = record.series(column_of(joint, logged_kinds()[static_cast<std::size_t>(Logged::duty)].column));
   const Series bus = record.series("supply.voltage");
-  const std::size_t rows = covered(log, t);
-  if (command.empty() || rows == 0) return {};
+  const std::unique_ptr<Actuator> motors = make_motors(scenario);
+  const double most = motors->command_limit()[joint];
+  std::vector<double> duty(command.empty() ? 0 : covered(log, t));
   RowWalk walk(t);
-  std::size_t at_limit = 0;
-  for (std::size_t k = 0; k < rows; ++k) {
+  for (std::size_t k = 0; k < duty.size(); ++k) {
     const double share = walk.move_to(log.t[k]);
     // A row has the command that was in force before it.
     const std::size_t row = walk.row() + (share * walk.length() > kSameTime ? 1 : 0);
-    const double bound = bus.empty() ? most : std::min(most, bus[row]);
-    if (std::abs(command[row]) >= kWholeDuty * bound) ++at_limit;
+    duty[k] = std::clamp(command[row] / (bus.empty() ? most : std::min(most, bus[row])), -1.0, 1.0);
   }
-  return static_cast<double>(at_limit) / static_cast<double>(rows);
+  return duty;
+}
+
+/// Share of the first rows with the whole duty.
+double share_at_limit(const std::vector<double>& duty, std::size_t rows) {
+  const auto whole = [](double one) { return std::abs(one) >= kWholeDuty; };
+  const auto count = std::count_if(duty.begin(), duty.begin() + static_cast<std::ptrdiff_t>(rows), whole);
+  return static_cast<double>(count) / static_cast<double>(rows);
 }
 
 }  // namespace
 
 std::vector<double> at_log(const Scenario& scenario, const Recording& record, std::size_t joint, Logged kind) {
+  if (kind == Logged::duty) return duty_at_log(scenario, record, joint);
   const LoggedKind& of = logged_kinds()[static_cast<std::size_t>(kind)];
   const MeasuredLog& log = *scenario.measured.log;
   const Series t = record.series("t");
@@ -118,24 +125,18 @@ std::optional<LogErrors> log_errors(const Scenario& scenario, const Recording& r
   if (made.rows < 2) return {};
   made.from_log = log.t.back();
   made.compared = log.t[made.rows - 1];
-  std::unique_ptr<Actuator> motors;
   for (const MeasuredLog::OfJoint& of : log.joints) {
     JointLogErrors& joint = made.joints.emplace_back();
     joint.joint = of.joint;
     for (const LoggedKind& kind : logged_kinds()) {
-      if (of.of(kind.kind).empty() || *kind.column == '\0') continue;
+      if (of.of(kind.kind).empty()) continue;
       const std::vector<double> simulated = at_log(scenario, record, of.joint, kind.kind);
       if (simulated.empty()) return {};
       joint.errors[static_cast<std::size_t>(kind.kind)] = error_of(simulated, of.of(kind.kind), log.t);
+      if (kind.kind != Logged::duty) continue;
+      joint.at_limit = share_at_limit(simulated, made.rows);
+      joint.measured_at_limit = share_at_limit(of.of(kind.kind), made.rows);
     }
-    const std::vector<double>& duty = of.of(Logged::duty);
-    if (duty.empty()) continue;
-    if (motors == nullptr) motors = make_motors(scenario);
-    joint.at_limit = share_at_limit(scenario, record, of.joint, motors->command_limit()[of.joint]);
-    const auto whole = [](double one) { return std::abs(one) >= kWholeDuty; };
-    const auto rows = static_cast<std::ptrdiff_t>(made.rows);
-    joint.measured_at_limit =
-        static_cast<double>(std::count_if(duty.begin(), duty.begin() + rows, whole)) / static_cast<double>(made.rows);
   }
   return made;
 }

@@ -39,7 +39,9 @@ struct LogErrors {
 };
 
 /// Values of the trace at the times of the log, by row: between rows of the trace the angle follows the cubic through angles
-/// and speeds (Hermite), and other quantities a line. The angle is the one that an encoder of the joint reads, if it has any.
+/// and speeds (Hermite), the duty is the one that was in force, and other quantities follow a line. The angle is the one that
+/// an encoder of the joint reads, if it has any. The duty is the voltage that the controller commands over the voltage that the
+/// motor can get, at most 1.
 /// Only the rows of the log up to the end of the run count.
 std::vector<double> at_log(const Scenario& scenario, const Recording& record, std::size_t joint, Logged kind);
 

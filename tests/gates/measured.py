@@ -59,10 +59,14 @@ def replayed(program, folder, log):
     (folder / "s.yaml").write_text(SCENARIO.format(start=angle[0], supply=SUPPLY, gain=gain, duration=repr(float(t[-1]))), encoding="utf-8")
     trace = replay.run(program, folder, log.stem)
     simulated = cubic(t, trace["t"], trace["joint.0.angle"], trace["joint.0.speed"])
+    # A duty is the command in force: that of the row at the time, or else of the next one.
+    command = trace["joint.0.voltage_command"][np.searchsorted(trace["t"], t - 1e-9)]
+    duty = np.clip(command / SUPPLY, -1, 1)
     said = json.loads((folder / log.stem / "summary.json").read_text(encoding="utf-8"))["measured"]
     for what, own, other in (("mae", np.abs(simulated - angle).mean(), said["angle"]["mae"]),
                              ("peak", np.abs(simulated - angle).max(), said["angle"]["peak"]),
                              ("rms", np.sqrt(((simulated - angle) ** 2).mean()), said["angle"]["rms"]),
+                             ("duty mae", np.abs(duty - pwm / 885).mean(), said["duty"]["mae"]),
                              ("limit.logged", (np.abs(pwm) >= 0.999 * 885).mean(), said["limit"]["logged"])):
         assert abs(own - other) <= 1e-12, f"{log.stem}: measured {what} {other}, by numpy {own}"
     checks = {one["id"]: one["status"] for one in json.loads((folder / log.stem / "verdict.json").read_text(encoding="utf-8"))["checks"]}

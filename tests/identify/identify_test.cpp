@@ -14,7 +14,8 @@ namespace {
 
 using namespace identify;
 
-constexpr double kTorque = 1.5, kDry = 0.08;  // of the servo that makes the logs, N m
+constexpr double kTorque = 1.5, kDry = 0.08, kGain = 2;  // of the servo that makes the logs, N m; duty per rad
+constexpr double kVoltage = 6;                           // V
 
 /// A mass on an arm, and logs of it that the program makes itself.
 class Bench : public ::testing::Test {
@@ -29,9 +30,9 @@ class Bench : public ::testing::Test {
     return fmt::format(
         "gaitlab: 1\nrobot: {{modules: ./lever.yaml, base: fixed, position: [0, 0, 1]}}\nground: {{type: none}}\n"
         "contact: {{\"on\": none}}\nphysics: {{engine: articulated, estimate: off}}\nduration: 2\n"
-        "actuator: {{type: servo, voltage: 6, stall_torque: {}, no_load_speed: 6, dry_friction: {}{}}}\n"
+        "actuator: {{type: servo, voltage: {}, stall_torque: {}, no_load_speed: 6, dry_friction: {}{}}}\n"
         "controller: {{type: rc_servo, gain: 2, period: 0.005}}\n",
-        torque, dry, more);
+        kVoltage, torque, dry, more);
   }
   static double goal(double t, double rate) { return 0.9 * std::sin(rate * t); }
   /// A log of the true servo for goals of this rate; angles in multiples of `unit` rad.
@@ -45,11 +46,12 @@ class Bench : public ::testing::Test {
         {"trace.period=0.01", fmt::format("controller.gain={}", gain)}, catalog());
     const Recording r = run(servo);
     const Table trace(r.trace);
-    std::string log = "t,goal,angle\n";
+    std::string log = "t,goal,angle,duty\n";
     constexpr double kTick = 2 * std::numbers::pi / 4096;  // an encoder of 12 bits
     for (std::size_t k = 0; k < r.trace.rows(); ++k) {
       const double angle = kTick * std::round(trace.at(k, "joint.0.angle") / kTick);
-      log += fmt::format("{},{},{}\n", r.trace.at(k, 0), goal(r.trace.at(k, 0), rate), unit * angle);
+      const double duty = std::clamp(trace.at(k, "joint.0.voltage_command") / kVoltage, -1.0, 1.0);
+      log += fmt::format("{},{},{},{:.3f}\n", r.trace.at(k, 0), goal(r.trace.at(k, 0), rate), unit * angle, duty);
     }
     folder_.write(name, log);
   }
@@ -66,9 +68,10 @@ class Bench : public ::testing::Test {
     for (const std::string& log : logs) files.push_back(folder_ / log);
     return read_bench(folder_ / "bench.yaml", {}, files, catalog());
   }
-  Identified identified(const std::vector<BenchLog>& logs, const std::vector<Key>& keys, int threads = 1) {
+  Identified identified(const std::vector<BenchLog>& logs, const std::vector<Key>& keys, int threads = 1,
+                        const std::vector<Logged>& kinds = {Logged::angle}) {
     std::atomic<bool> stop = false;
-    ErrorModels models(logs, keys, Logged::angle, threads, stop);
+    ErrorModels models(logs, keys, kinds, threads, stop);
     return identify::identify(models, {.seed = 1, .choose = false, .drawn = 1});
   }
   void expect_refused(const std::function<void()>& work, const std::string& part) {
@@ -119,12 +122,29 @@ TEST_F(Bench, FindsTheNumbersOfItsOwnLogs) {
   const std::vector<BenchLog> with = bench({"logs.csv"});
   const std::vector<Key> own = fitted_keys(with[0].scenario, {"actuator.stall_torque"});
   std::atomic<bool> stop = false;
-  ErrorModels models(with, own, Logged::angle, 1, stop);
+  ErrorModels models(with, own, {Logged::angle}, 1, stop);
   EXPECT_EQ(error_of(models.compared({})[0], Logged::angle), error_of(made.after[0], Logged::angle));
 
   const std::vector<std::string> limits = findings(made, logs, keys);
   ASSERT_FALSE(limits.empty());
   EXPECT_TRUE(contains(limits[0], "angles alone are compared")) << limits[0];
+}
+
+TEST_F(Bench, TheDutySeparatesTheGainFromTheTorque) {
+  write_log("slow.csv", 2, kGain);
+  write_log("fast.csv", 5, kGain);
+  write_bench(1.2, kDry, "angle: angle, duty: duty");
+  const std::vector<BenchLog> logs =
+      read_bench(folder_ / "bench.yaml", {"controller.gain=3"}, {folder_ / "slow.csv", folder_ / "fast.csv"}, catalog());
+  const std::vector<Key> keys =
+      fitted_keys(logs[0].scenario, {"actuator.stall_torque", "controller.gain", "actuator.no_load_speed"});
+  // The angle follows from gain times stall_torque, and from stall_torque / no_load_speed.
+  EXPECT_GT(std::abs(identified(logs, keys).keys[1].value / kGain - 1), 0.02);
+  const Identified both = identified(logs, keys, 1, {Logged::angle, Logged::duty});
+  // The duty has three digits, the angle 12 bits.
+  EXPECT_NEAR(both.keys[0].value, kTorque, 0.005 * kTorque);
+  EXPECT_NEAR(both.keys[1].value, kGain, 0.005 * kGain);
+  for (const std::string& limit : findings(both, logs, keys)) EXPECT_FALSE(contains(limit, "angles alone")) << limit;
 }
 
 TEST_F(Bench, AKeyThatEarnsNothingStays) {
@@ -135,7 +155,7 @@ TEST_F(Bench, AKeyThatEarnsNothingStays) {
   hold_out(logs, {}, 0, 1);
   std::vector<Key> keys = fitted_keys(logs[0].scenario, {"actuator.stall_torque", "actuator.dry_friction"});
   std::atomic<bool> stop = false;
-  ErrorModels models(logs, keys, Logged::angle, 1, stop);
+  ErrorModels models(logs, keys, {Logged::angle}, 1, stop);
   const Identified made = identify::identify(models, {.seed = 1, .choose = true, .drawn = 0});
   EXPECT_TRUE(made.keys[0].fitted);
   EXPECT_NEAR(made.keys[0].value, kTorque, 0.005 * kTorque);

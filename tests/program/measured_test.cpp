@@ -47,6 +47,7 @@ TEST(Measured, ErrorsAreThoseOfTraceAndLog) {
   double sum = 0;
   double square = 0;
   double most = 0;
+  double duty = 0;
   std::size_t at_limit = 0;
   constexpr std::size_t kRows = 401;  // from 0 to 2 s; the log goes on to 2.5 s
   ASSERT_EQ(r.trace.rows(), kRows);
@@ -55,7 +56,9 @@ TEST(Measured, ErrorsAreThoseOfTraceAndLog) {
     sum += std::abs(off);
     square += off * off;
     most = std::max(most, std::abs(off));
-    if (std::abs(row.at(k, "joint.0.voltage_command")) >= 0.999 * 6) ++at_limit;
+    const double command = std::clamp(row.at(k, "joint.0.voltage_command") / 6, -1.0, 1.0);
+    duty += std::abs(command - (k > 100 && k < 150 ? 1 : 100.0 / 885));
+    if (std::abs(command) >= 0.999) ++at_limit;
   }
   const std::optional<LogErrors> errors = log_errors(s, r);
   ASSERT_TRUE(errors);
@@ -65,6 +68,7 @@ TEST(Measured, ErrorsAreThoseOfTraceAndLog) {
   EXPECT_NEAR(angle.mae, sum / kRows, kRounding);
   EXPECT_NEAR(angle.rms, std::sqrt(square / kRows), kRounding);
   EXPECT_NEAR(angle.peak, most, kRounding);
+  EXPECT_NEAR(errors->joints[0].of(Logged::duty)->mae, duty / kRows, kRounding);
   EXPECT_NEAR(*errors->joints[0].at_limit, static_cast<double>(at_limit) / kRows, 1e-12);
   EXPECT_NEAR(*errors->joints[0].measured_at_limit, 49.0 / kRows, 1e-12);  // rows 101 to 149
 }

@@ -62,7 +62,6 @@ std::vector<SummaryNumber> measured_numbers() {
                    .if_known = true});
   };
   for (const LoggedKind& kind : logged_kinds()) {
-    if (*kind.column == '\0') continue;
     for (std::size_t i = 0; i < kMeasures.size(); ++i) {
       const ErrorMeasure& measure = kMeasures[i];
       add(
