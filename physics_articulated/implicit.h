@@ -1,24 +1,14 @@
 // Implicit step for a scalar type T (double or lanes), after which every motor, stop and contact satisfies its law.
 #pragma once
 #include "physics_articulated/contacts.h"
+#include "physics_articulated/iterate.h"
 #include "physics_articulated/line_search.h"
-#include "physics_articulated/motion.h"
 #include "physics_articulated/motors.h"
 #include "physics_articulated/plays.h"
-#include "physics_articulated/solo.h"
 #include "physics_articulated/sticking.h"
 #include "physics_articulated/stops.h"
 
 namespace gaitlab::articulated {
-
-/// Result of one implicit step.
-template <class T>
-struct StepResult {
-  std::vector<T> torque, speed, angle;  ///< at the end of the step: torques and speeds of motors, N m, rad/s; joint angles
-  T contact = 0.0, friction = 0.0, stops = 0.0;  ///< work of the robot on the ground and on stops, J
-  T hinges = 0.0;                                ///< work on dampers and friction of passive hinges, J
-  explicit StepResult(std::size_t joints) : torque(joints), speed(joints), angle(joints) {}
-};
 
 /// Integrates one step. The state has the entries of StateLayout, SI. Only the constructor allocates. The step from (q, v) to
 /// (q+, v+) solves
@@ -50,7 +40,7 @@ class Implicit {
         contacts(tree, environment),
         motors(actuator, tree.lo.size(), tree.passive, tree.hinges, lanes),
         stops(tree),
-        rotor(rotors(tree.lo.size(), actuator, lanes)),
+        rotor(reflected_inertia<T>(tree.lo.size(), actuator, lanes)),
         plays(tree, rotor),
         done(tree.lo.size()),
         tree_(tree),
@@ -63,12 +53,6 @@ class Implicit {
     passive_.assign(tree.passive.size(), T(0.0));
     for (auto* values : {&stop_, &stop_slope_, &force_, &diagonal_, &end_}) values->assign(joints_, T(0.0));
     if (plays.any()) motor_end_.assign(joints_, T(0.0));
-  }
-
-  /// Takes smooth laws of friction, for explicit methods.
-  void creep() {
-    motors.creep();
-    stops.creep();
   }
 
   /// Advances the lanes `which` of x by a step and fills done, solves and off. `command` is constant, with index joint * lanes
@@ -113,16 +97,11 @@ class Implicit {
 
   /// Takes the results of a solo's step in the lane `l`; `which` contains only this lane.
   void take(const Solo& solo, std::size_t l, const math::Mask<T>& which) {
+    done.take(solo, l);
     for (std::size_t j = 0; j < joints_; ++j) {
-      math::lane(done.torque[j], l) = math::lane(now_.torque[j], l) = solo.torque[j];
-      math::lane(done.speed[j], l) = solo.speed[j];
-      math::lane(done.angle[j], l) = solo.angle[j];
+      math::lane(now_.torque[j], l) = solo.torque[j];
       math::lane(motors.slope[j], l) = solo.slope[j];
     }
-    math::lane(done.contact, l) = solo.contact;
-    math::lane(done.friction, l) = solo.friction;
-    math::lane(done.stops, l) = solo.stops;
-    math::lane(done.hinges, l) = solo.hinges;
     solves = T(solo.solves);
     off = T(solo.off);
     unfinished = solo.unfinished ? which : math::Mask<T>{};
@@ -229,11 +208,6 @@ class Implicit {
   math::Mask<T> switched{};    ///< lanes in which a joint began or ceased to stick since the mask was cleared
 
  private:
-  /// Iterate of Newton's method: accelerations, and the torques in the solve at these accelerations.
-  struct Iterate {
-    Iterate(std::size_t joints, std::size_t plays) : a(6 + joints + plays), torque(joints), stop(joints) {}
-    std::vector<T> a, torque, stop;
-  };
   /// Sets the tangents at the speeds at the end of the last step, so that every law begins on the branch of that step.
   void start(std::span<const T> x, In command, double h) {
     const math::Mask<T> all = T(0.0) <= T(0.0);
@@ -263,22 +237,12 @@ class Implicit {
   /// Replaces the iterate by the last solve.
   void move(const math::Mask<T>& which) {
     contacts.move(which);
-    const auto go = [&](std::vector<T>& from, const std::vector<T>& to) {
-      for (std::size_t i = 0; i < from.size(); ++i) from[i] = math::select(which, to[i], from[i]);
-    };
-    go(now_.a, next_.a);
-    go(now_.torque, next_.torque);
-    go(now_.stop, next_.stop);
+    now_.move(which, next_);
     plays.move(which, T(1.0));
   }
   void move(const math::Mask<T>& which, const T& share) {
     contacts.move(which, share);
-    const auto go = [&](std::vector<T>& from, const std::vector<T>& to) {
-      for (std::size_t i = 0; i < from.size(); ++i) from[i] = between(which, share, from[i], to[i]);
-    };
-    go(now_.a, next_.a);
-    go(now_.torque, next_.torque);
-    go(now_.stop, next_.stop);
+    now_.move(which, share, next_);
     plays.move(which, share);
   }
 
@@ -343,12 +307,11 @@ class Implicit {
   /// Sets the tangents of all laws at the iterate in the lanes `which`, after misses(). Laws within their tolerance are
   /// included, because otherwise climb() would not be the slope of phi.
   void touch(const math::Mask<T>& which, std::span<const T> x, double h) {
-    using math::select;
     for (std::size_t j = 0; j < joints_; ++j) {
       motors.touch(j, which, x[plays.entry(j)], motor_ends()[j]);
       const StopTorque<T> s = stops.both_at_end(x, j, end_[j], h);
-      stop_slope_[j] = select(which, s.slope, stop_slope_[j]);
-      stop_[j] = select(which, s.torque + s.slope * (end_[j] - speeds(x)[j]), stop_[j]);
+      stop_slope_[j] = math::select(which, s.slope, stop_slope_[j]);
+      stop_[j] = math::select(which, s.torque + s.slope * (end_[j] - speeds(x)[j]), stop_[j]);
     }
     plays.touch(which, x, motor_end_, end_, h);
     contacts.touch(which, h);
@@ -378,7 +341,8 @@ class Implicit {
       const T rest = motors.any_jump && !plays.has(j) ? math::select(motors.sticks[j], T(0.0), end) : end;
       qd[j] = math::select(which, rest, qd[j]);
       // The law of a joint that sticks is vertical.
-      if (motors.any_jump) motors.slope[j] = math::select(motors.sticks[j], T(kVertical), motors.slope[j]);
+      if (motors.any_jump)
+        motors.slope[j] = math::select(motors.sticks[j], T(std::numeric_limits<double>::infinity()), motors.slope[j]);
     }
     for (std::size_t k = 0; k < plays.size(); ++k) {
       T& w = x[plays.speeds() + k];
@@ -406,16 +370,6 @@ class Implicit {
     now_.stop[j] = stop;
   }
 
-  /// Reflected inertia of each joint, kg m^2.
-  static std::vector<T> rotors(std::size_t joints, const Actuator* actuator, const LaneRange& lanes) {
-    std::vector<T> all(joints, T(0.0));
-    const In inertia = actuator == nullptr ? In() : actuator->reflected_inertia();
-    for (std::size_t j = 0; j < joints && !inertia.empty(); ++j) {
-      for (std::size_t l = 0; l < math::kLanes<T>; ++l) math::lane(all[j], l) = inertia[j * lanes.all + lanes.first + l];
-    }
-    return all;
-  }
-
   /// Sets motor_end_, after end_. `accelerated(c)`: acceleration of coordinate c behind those of the base.
   template <class Accelerated>
   void set_motor_ends(std::span<const T> x, double h, const Accelerated& accelerated) {
@@ -427,8 +381,6 @@ class Implicit {
   /// Speeds of the motors at the end of the step in the iterate, by joint.
   [[nodiscard]] std::vector<T>& motor_ends() { return plays.any() ? motor_end_ : end_; }
 
-  static constexpr double kVertical = std::numeric_limits<double>::infinity();
-
   const Tree<T>& tree_;
   std::size_t joints_;
   std::vector<T> passive_;    ///< torques of passive hinges, set by evaluate()
@@ -436,7 +388,7 @@ class Implicit {
   std::vector<T> place_, stop_, stop_slope_, force_, diagonal_, end_;
   Sticking<T> sticking_;
   std::vector<math::Mask<T>> rests_;  ///< joints at rest in add_friction()
-  Iterate now_, next_;
+  Iterate<T> now_, next_;
   T missed_ = 0.0;
   T torque_tolerance_ = kTorqueTolerance;  ///< share of the largest torque of a motor at rest
 };

@@ -18,6 +18,17 @@ struct LaneRange {
   std::size_t first = 0, all = 0;
 };
 
+/// Reflected inertia of each joint, kg m^2.
+template <class T>
+std::vector<T> reflected_inertia(std::size_t joints, const Actuator* actuator, const LaneRange& lanes) {
+  std::vector<T> all(joints, T(0.0));
+  const In inertia = actuator == nullptr ? In() : actuator->reflected_inertia();
+  for (std::size_t j = 0; j < joints && !inertia.empty(); ++j) {
+    for (std::size_t l = 0; l < math::kLanes<T>; ++l) math::lane(all[j], l) = inertia[j * lanes.all + lanes.first + l];
+  }
+  return all;
+}
+
 /// Evaluates motors with the friction of their joints. DC motors (Actuator::dc_motors) are evaluated here for all lanes at
 /// once, other motors by their plugin. Commands have the index joint * lanes + lane. Torques are in N m, slopes -dT/dw in N m
 /// s/rad.

@@ -30,6 +30,27 @@ struct History {
   [[nodiscard]] std::size_t size() const { return joints + 4; }
 };
 
+/// Index of the lane if `which` contains exactly one, otherwise kLanes.
+template <class T>
+std::size_t only_lane(const math::Mask<T>& which) {
+  const T one = math::select(which, T(1.0), T(0.0));
+  std::size_t found = math::kLanes<T>;
+  for (std::size_t l = 0; l < math::kLanes<T>; ++l) {
+    if (!(math::lane(one, l) > 0)) continue;
+    if (found < math::kLanes<T>) return math::kLanes<T>;
+    found = l;
+  }
+  return found;
+}
+
+/// Lanes whose state is finite. Shorter steps cannot repair the other lanes.
+template <class T>
+math::Mask<T> finite(std::span<const T> x) {
+  T sum = 0.0;
+  for (const T& one : x) sum = sum + T(0.0) * one;
+  return sum <= T(0.0);
+}
+
 /// A state, and the parts [from, to) of the steps that led to it.
 template <class T>
 struct StepWay {

@@ -47,7 +47,10 @@ class Stepper {
     limits_ = levels_[0].limits;
     halved_.assign(kHalvings, zero);
     if (method == StepMethod::adaptive) implicit.allow(accuracy);
-    if (method == StepMethod::rk4) implicit.creep();
+    if (method == StepMethod::rk4) {  // an explicit method needs smooth laws of friction
+      implicit.motors.creep();
+      implicit.stops.creep();
+    }
     parts_.assign(method == StepMethod::adaptive ? std::clamp<std::size_t>(kRoom / size_of_part(), 8, kMostParts) : 4,
                   StepPart<T>(joints_));
   }
@@ -120,18 +123,6 @@ class Stepper {
     return part;
   }
 
-  /// Index of the lane if `which` contains exactly one, otherwise kLanes.
-  static std::size_t only_lane(const math::Mask<T>& which) {
-    const T one = math::select(which, T(1.0), T(0.0));
-    std::size_t found = math::kLanes<T>;
-    for (std::size_t l = 0; l < math::kLanes<T>; ++l) {
-      if (!(math::lane(one, l) > 0)) continue;
-      if (found < math::kLanes<T>) return math::kLanes<T>;
-      found = l;
-    }
-    return found;
-  }
-
   /// Takes an implicit step of the lane `l` in scalar code, which ends at `end`. `which` contains this lane only.
   void step_alone(std::size_t l, std::span<T> x, In command, double h, double end, const math::Mask<T>& which) {
     Solo& solo = *solos_[l].get;
@@ -147,7 +138,7 @@ class Stepper {
   /// Takes one implicit step in the lanes `which` and adds its parts. It begins `at` seconds after the start of the whole step.
   void settle(std::span<T> x, In command, double h, const math::Mask<T>& which, double at, std::size_t halvings = 0) {
     if (halvings < kHalvings) std::copy(x.begin(), x.end(), halved_[halvings].begin());
-    const std::size_t alone = solos_.empty() ? math::kLanes<T> : only_lane(which);
+    const std::size_t alone = solos_.empty() ? math::kLanes<T> : only_lane<T>(which);
     if (alone < math::kLanes<T>) {
       step_alone(alone, x, command, h, at + h, which);
     } else {
@@ -200,13 +191,6 @@ class Stepper {
     const math::Mask<T> asked = lost_.find(implicit, start, end, command, h, which);
     history_[layout.solves()] = history_[layout.solves()] + math::select(asked, T(1.0), T(0.0));
     return math::any_lane(asked);
-  }
-
-  /// Lanes whose state is finite. Shorter steps cannot repair the other lanes.
-  static math::Mask<T> finite(std::span<const T> x) {
-    T sum = 0.0;
-    for (const T& one : x) sum = sum + T(0.0) * one;
-    return sum <= T(0.0);
   }
 
   /// Limits after the last solve of each lane.
@@ -317,7 +301,7 @@ class Stepper {
     const auto taken = math::mask_or(second, third);
     for (std::size_t e = 0; e < x.size(); ++e) x[e] = select(taken, x[e], own.start[e]);
     eighths_.keep(x, taken, end, kShortest);
-    const auto shorter = math::mask_and(math::fresh(which, taken), finite(own.start));
+    const auto shorter = math::mask_and(math::fresh(which, taken), finite<T>(own.start));
     if (!math::any_lane(shorter)) return;
     if (!math::any_lane(taken)) drop(own, first);  // no lane uses the other steps
     adapt(x, command, h / 2, shorter, level + 1, end - (kShortest >> (level + 1)), &own);
