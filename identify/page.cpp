@@ -42,6 +42,7 @@ figure.out { border-color: var(--muted); }
 figcaption { padding: 0 6px; }
 figcaption i { float: right; color: var(--muted); }
 svg { display: block; width: 100%; height: auto; font-family: inherit; }
+.foot { margin: 16px 0 0; }
 .legend span { display: inline-block; margin-right: 18px; }
 .legend b { display: inline-block; width: 26px; margin-right: 7px; vertical-align: middle; }
 )";

@@ -26,7 +26,8 @@ inline constexpr std::string_view kLog = "#009E73", kRun = "#0072B2", kOther = "
 
 /// SVG text with a panel for each of `curves`: the log as a wide line behind the run, which is a line, and the other run, which
 /// is a fine one; below it run - log and other - log. `t` are the times of the rows, s; each curve has as many values. The
-/// stretches `off` are shaded. `title` is the name of the picture for programs that read it aloud.
+/// stretches `off` are shaded. Runs and differences are cut where they are far beyond the log or the other differences. `title`
+/// is the name of the picture for programs that read it aloud.
 std::string log_figure(const std::string& title, std::span<const double> t, std::span<const LogStretch> off,
                        std::span<const LogCurves> curves);
 
