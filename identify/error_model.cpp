@@ -140,6 +140,12 @@ std::vector<Compared> ErrorModels::compared(const Point& point) {
         for (const MeasuredLog::OfJoint& joint : one.rollout.scenario.measured.log->joints) {
           made.largest_current = std::max(made.largest_current, largest(one.recording, joint.joint, "current"));
           made.largest_speed = std::max(made.largest_speed, largest(one.recording, joint.joint, "speed"));
+          MeasuredLog::OfJoint& curves = made.simulated.emplace_back(MeasuredLog::OfJoint{joint.joint, {}});
+          for (const LoggedKind& kind : logged_kinds()) {
+            if (!joint.of(kind.kind).empty())
+              curves.values[static_cast<std::size_t>(kind.kind)] =
+                  report::at_log(one.rollout.scenario, one.recording, joint.joint, kind.kind);
+          }
         }
       });
   return all;

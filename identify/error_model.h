@@ -46,9 +46,10 @@ struct Question {
 
 /// A log beside its run at a point.
 struct Compared {
-  std::optional<report::LogErrors> errors;  ///< none if the run did not reach its end
-  double largest_current = 0;               ///< A, of the logged joints
-  double largest_speed = 0;                 ///< rad/s, of the logged joints
+  std::optional<report::LogErrors> errors;      ///< none if the run did not reach its end
+  double largest_current = 0;                   ///< A, of the logged joints
+  double largest_speed = 0;                     ///< rad/s, of the logged joints
+  std::vector<MeasuredLog::OfJoint> simulated;  ///< as MeasuredLog::joints: values of the run at the rows of the log
 };
 
 /// Mean magnitude of the differences of a run from its log, in the unit of the quantity.

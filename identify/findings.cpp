@@ -115,7 +115,6 @@ class Findings {
 
   void add_trades() {
     const std::vector<std::size_t>& of = made_.best.at.keys;
-    if (made_.best.logs.size() <= of.size()) return;  // the jackknife of so few logs has only correlations of 1
     for (Eigen::Index i = 0; i < made_.correlation.rows(); ++i) {
       for (Eigen::Index j = 0; j < i; ++j) {
         const double r = made_.correlation(i, j);

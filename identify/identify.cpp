@@ -225,7 +225,8 @@ Identified identify(ErrorModels& models, const IdentifySettings& settings) {
     one.low = std::max(rounded(value - half, half), keys[k].low);
     one.high = std::min(rounded(value + half, half), keys[k].high);
   }
-  made.correlation = correlation_of(spread);
+  // The jackknife of so few logs has only correlations of 1.
+  if (made.best.logs.size() > made.best.at.keys.size()) made.correlation = correlation_of(spread);
 
   settings.told("all logs");
   made.before = models.compared(Point{});

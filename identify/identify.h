@@ -22,10 +22,10 @@ struct IdentifiedKey {
 };
 
 struct Identified {
-  Fit best;                             ///< values rounded to their intervals
-  std::size_t starts = 0, agreed = 0;   ///< starts, and those that ended within 2 % of the best error
-  std::vector<IdentifiedKey> keys;      ///< all keys
-  Eigen::MatrixXd correlation;          ///< of the fitted keys, in the order of Fit::at
+  Fit best;                            ///< values rounded to their intervals
+  std::size_t starts = 0, agreed = 0;  ///< starts, and those that ended within 2 % of the best error
+  std::vector<IdentifiedKey> keys;     ///< all keys
+  Eigen::MatrixXd correlation;  ///< of the fitted keys, in the order of Fit::at; empty without more fitted logs than keys
   std::vector<Compared> before, after;  ///< every log by the bench, and by the fit
   std::vector<Logged> kinds;            ///< the compared quantities
   std::size_t runs = 0;

@@ -88,6 +88,15 @@ std::string error_text(double error, Logged kind) {
   return fmt::format("{:.3g}{}{}", error, unit.empty() ? "" : " ", unit);
 }
 
+std::vector<std::string> origins_of(const std::vector<BenchLog>& logs) {
+  std::vector<std::string> origins;
+  for (const BenchLog& log : logs) {
+    const std::string& origin = log.scenario.measured.source;
+    if (!origin.empty() && std::ranges::find(origins, origin) == origins.end()) origins.push_back(origin);
+  }
+  return origins;
+}
+
 std::string source_text(const Identified& made, const std::vector<BenchLog>& logs) {
   std::string hashes;
   double fastest = 0;
@@ -104,6 +113,7 @@ std::string source_text(const Identified& made, const std::vector<BenchLog>& log
   if (const auto held_out = mean_error(logs, made.after, made.kinds[0], true))
     text +=
         fmt::format("; held-out error {} on {}", error_text(*held_out, made.kinds[0]), counted(logs.size() - fitted, "log"));
+  for (const std::string& origin : origins_of(logs)) text += "; " + origin;
   return text;
 }
 

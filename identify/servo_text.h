@@ -10,7 +10,11 @@ namespace gaitlab::identify {
 /// Error of a quantity with its unit; of an angle in mrad.
 std::string error_text(double error, Logged kind);
 
-/// Sentence on the origin of the fitted values: logs, their hash, errors, and the range of speeds that the logs cover.
+/// Origins and licences that the logs state (measured.source), each once.
+std::vector<std::string> origins_of(const std::vector<BenchLog>& logs);
+
+/// Sentence on the origin of the fitted values: logs, their hash, errors, the range of speeds that the logs cover, and the
+/// origin of the logs.
 std::string source_text(const Identified& made, const std::vector<BenchLog>& logs);
 
 /// True if a servo file can state the key: one of actuator or controller, for all joints.

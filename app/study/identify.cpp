@@ -4,9 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
-#include <numeric>
 
 #include "app/look/cells.h"
 #include "app/shell/commands.h"
@@ -16,14 +14,17 @@
 #include "core/settings/wording.h"
 #include "core/simulation/batch_limits.h"
 #include "identify/findings.h"
+#include "identify/page.h"
 #include "identify/servo_text.h"
+#include "identify/tables.h"
 
 namespace gaitlab::app {
 
 namespace {
 
+namespace fs = std::filesystem;
+
 using identify::BenchLog;
-using identify::Compared;
 using identify::Identified;
 using identify::IdentifiedKey;
 using identify::Key;
@@ -33,60 +34,11 @@ struct IdentifyArguments {
   std::vector<std::string> logs, sets, fit, held_out;
   double share = 0.25;
   std::vector<std::string> quantities;
-  std::string to;
+  std::string to, page;
   std::int64_t seed = 1;
   int jobs = 1;
   bool quiet = false;
 };
-
-std::string table_of_errors(const Identified& made, const std::vector<BenchLog>& logs) {
-  std::vector<Cells> rows{{"error", "", "logs", "bench", "identified"}};
-  for (const Logged kind : made.kinds) {
-    for (const bool held_out : {false, true}) {
-      const auto before = identify::mean_error(logs, made.before, kind, held_out);
-      if (!before) continue;
-      rows.push_back({logged_kinds()[static_cast<std::size_t>(kind)].key, held_out ? "held-out logs" : "fitted logs",
-                      std::to_string(std::ranges::count(logs, held_out, &BenchLog::held_out)),
-                      identify::error_text(*before, kind),
-                      identify::error_text(*identify::mean_error(logs, made.after, kind, held_out), kind)});
-    }
-  }
-  return cells_text(rows);
-}
-
-std::string table_of_keys(const Identified& made, const std::vector<Key>& keys) {
-  std::vector<Cells> rows{{"key", "value", "95 %", "unit", "bench", "error of left-out logs without it"}};
-  for (const IdentifiedKey& one : made.keys) {
-    const Key& key = keys[one.key];
-    const std::string worth = std::isfinite(one.worth) ? fmt::format("{:+.0f} %", 100 * one.worth) : "-";
-    rows.push_back({key.name, one.fitted ? number_text(one.value) : "as in the bench",
-                    !one.fitted    ? "-"
-                    : one.at_bound ? "at its bound"
-                                   : number_text(one.low) + " to " + number_text(one.high),
-                    key.unit, fmt::format("{:.4g}", key.bench), worth});
-  }
-  return cells_text(rows);
-}
-
-/// The logs, worst first.
-std::string table_of_logs(const Identified& made, const std::vector<BenchLog>& logs) {
-  std::vector<std::size_t> order(logs.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::stable_sort(order, std::greater<>(),
-                           [&](std::size_t l) { return identify::error_of(made.after[l], made.kinds[0]); });
-  std::vector<Cells> rows{{"log", "", "bench", "identified", "at the limit", "in the log"}};
-  const auto text = [&](const Compared& run) {
-    return identify::error_text(identify::error_of(run, made.kinds[0]), made.kinds[0]);
-  };
-  const auto share = [](const std::optional<double>& one) { return one ? fmt::format("{:.2f}", *one) : "-"; };
-  for (const std::size_t l : order) {
-    const report::LogErrors& errors = *made.after[l].errors;
-    rows.push_back({logs[l].name, logs[l].held_out ? "held out" : "", text(made.before[l]), text(made.after[l]),
-                    share(errors.mean(&report::JointLogErrors::at_limit)),
-                    share(errors.mean(&report::JointLogErrors::measured_at_limit))});
-  }
-  return cells_text(rows);
-}
 
 /// The fitted values as options.
 std::string settings_text(const Identified& made, const std::vector<Key>& keys) {
@@ -120,7 +72,12 @@ std::vector<Logged> compared_kinds(const std::vector<std::string>& names, const 
 }
 
 int identify_servo(const IdentifyArguments& a) {
-  if (!a.to.empty()) check_new(a.to);
+  for (const std::string& file : {a.to, a.page}) {
+    if (!file.empty()) check_new(file);
+  }
+  const auto place = [](const std::string& file) { return fs::weakly_canonical(fs::absolute(file)); };
+  if (!a.to.empty() && !a.page.empty() && place(a.to) == place(a.page))
+    throw InputError(SourceLocation{"--page"}, "is the file of --to; expected another one");
   Catalog catalog = standard_catalog();
   std::vector<BenchLog> logs = identify::read_bench(a.file, a.sets, a.logs, catalog);
   identify::check_logs(logs);
@@ -146,21 +103,26 @@ int identify_servo(const IdentifyArguments& a) {
     say("gaitlab identify", "error", "interrupted; nothing was written");
     return 1;
   }
-  const std::string name = std::filesystem::path(a.to.empty() ? "servo" : a.to).stem().string();
+  const std::string name = fs::path(a.to.empty() ? "servo" : a.to).stem().string();
   const std::string result =
       odd == keys.end() ? identify::servo_text(name, a.file, a.sets, made, logs, keys) : settings_text(made, keys);
+  const std::vector<std::string> limits = identify::findings(made, logs, keys);
   if (!a.to.empty()) write_file(a.to, result, Existing::refused);
+  if (!a.page.empty()) write_file(a.page, identify::identify_page(made, logs, keys, limits, result), Existing::refused);
   if (a.quiet) {
     if (a.to.empty()) fmt::print("{}", result);
     return 0;
   }
-  std::string text = fmt::format("{}; {} of {} starts end within 2 % of the best\n\n{}\n{}\n", counted(made.runs, "run"),
-                                 made.agreed, made.starts, table_of_errors(made, logs), table_of_keys(made, keys));
-  if (const auto limits = identify::findings(made, logs, keys); !limits.empty()) {
+  std::string text =
+      fmt::format("{}; {} of {} starts end within 2 % of the best\n\n{}\n{}\n", counted(made.runs, "run"), made.agreed,
+                  made.starts, cells_text(identify::error_rows(made, logs)), cells_text(identify::key_rows(made, keys)));
+  if (!limits.empty()) {
     text += "limits of these logs\n";
     for (const std::string& one : limits) text += "  " + wrapped(one, 4, 98).substr(2);
   }
-  text += "\n" + table_of_logs(made, logs) + "\n" + (a.to.empty() ? result : "the servo is in " + a.to + "\n");
+  text += "\n" + cells_text(identify::log_rows(made, logs)) + "\n";
+  if (!a.page.empty()) text += "the page is in " + a.page + "\n";
+  text += a.to.empty() ? result : "the servo is in " + a.to + "\n";
   fmt::print("{}", text);
   return 0;
 }
@@ -197,6 +159,9 @@ void add_identify(Commands& commands) {
             ->check(CLI::IsMember(names_of_quantities()))
             ->allow_extra_args(false);
         command.add_option("--to", a.to, "write the servo to this new file");
+        command
+            .add_option("--page", a.page, "page (HTML) to write, with tables, limits and a figure of every log; must not exist")
+            ->check(not_empty);
         command.add_option("--seed", a.seed, "seed of drawn starts and of the logs held out (default 1)");
         command.add_option("-j,--jobs", a.jobs, "threads (default 1)")->check(CLI::Range(1, kMostThreads));
         command.add_flag("--quiet", a.quiet, "print only errors");

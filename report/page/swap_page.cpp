@@ -8,6 +8,7 @@
 #include "report/figures/run/views.h"
 #include "report/page/heat_image.h"
 #include "report/page/packing.h"
+#include "report/page/plain_page.h"
 #include "report/plot/svg.h"
 #include "report/verdict/numbers/number_texts.h"
 
@@ -19,23 +20,9 @@ namespace {
 constexpr std::size_t kPictureColumns = 240;
 constexpr double kRobotWidth = 560;  // px
 
-constexpr const char* kStyle = R"(
-:root { --ink: #1b2127; --muted: #5f6a74; --rule: #e1e6ea; --bg: #f3f5f7; --panel: #fff; --pass: #00694c; --fail: #b3261e; --open: #4a5661; color-scheme: light dark; }
-@media (prefers-color-scheme: dark) { :root { --ink: #e9edf1; --muted: #97a4b0; --rule: #262d35; --bg: #0d1013; --panel: #14181d; --pass: #3fd0a2; --fail: #ff7a70; --open: #b4c0cb; } }
-body { margin: 0; padding: 24px; background: var(--bg); color: var(--ink); font: 14px/1.45 Inter, ui-sans-serif, system-ui, "Segoe UI", Roboto, "Liberation Sans", Arial, sans-serif; font-variant-numeric: tabular-nums; }
-h1 { font-size: 20px; margin: 0 0 4px; }
-p { margin: 0 0 16px; color: var(--muted); }
-main { border-radius: 10px; padding: 4px 0 12px; overflow-x: auto; background: linear-gradient(90deg, var(--panel) 40%, transparent) local, linear-gradient(270deg, var(--panel) 40%, transparent) 100% 0 local, radial-gradient(farthest-side at 0 50%, var(--muted), transparent) scroll, radial-gradient(farthest-side at 100% 50%, var(--muted), transparent) 100% 0 scroll; background-color: var(--panel); background-repeat: no-repeat; background-size: 48px 100%, 48px 100%, 12px 100%, 12px 100%; }
-table { border-collapse: collapse; width: 100%; }
-th, td { padding: 10px 6px; border-bottom: 1px solid var(--rule); text-align: right; vertical-align: middle; white-space: nowrap; }
-th { font-weight: 500; color: var(--muted); vertical-align: bottom; }
-th:first-child, td:first-child, th.l, td.l { text-align: left; }
-th:first-child, td:first-child { padding-left: 16px; position: sticky; left: 0; background: var(--panel); }
-th:last-child, td:last-child { padding-right: 16px; }
-td.l { white-space: normal; min-width: 150px; max-width: 340px; }
+constexpr const char* kStyle = R"(td.l { white-space: normal; min-width: 150px; max-width: 340px; }
 a { color: inherit; font-weight: 650; text-underline-offset: 3px; }
 b.pass { color: var(--pass); } b.fail { color: var(--fail); } b.open { color: var(--open); }
-small { display: block; color: var(--muted); font-size: 12.5px; }
 img { display: block; border-radius: 3px; }
 td img { image-rendering: pixelated; }
 td:last-child small { white-space: normal; min-width: 86px; }
@@ -158,14 +145,11 @@ std::string swap_page(const std::string& name, const std::vector<SwapEntry>& ent
     }
     rows += "</tr>\n";
   }
-  return fmt::format(
-      "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; style-src 'unsafe-inline'\">\n"
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{0}: CPGs side by side</title>\n"
-      "<style>{1}</style>\n</head>\n<body>\n<h1>{0}</h1>\n<p>under {2} CPGs; a name leads to the page of its "
-      "run</p>\n{5}<main tabindex=\"0\" aria-label=\"table of the CPGs\">\n"
-      "<table>\n<thead><tr>{3}</tr></thead>\n<tbody>\n{4}</tbody>\n</table>\n</main>\n</body>\n</html>\n",
-      xml_escaped(name), kStyle, entries.size(), head, rows, robot_picture(entries));
+  return plain_page(name + ": CPGs side by side", kStyle,
+                    fmt::format("<h1>{}</h1>\n<p>under {} CPGs; a name leads to the page of its run</p>\n{}"
+                                "<main class=\"wide\" tabindex=\"0\" aria-label=\"table of the CPGs\">\n"
+                                "<table>\n<thead><tr>{}</tr></thead>\n<tbody>\n{}</tbody>\n</table>\n</main>\n",
+                                xml_escaped(name), entries.size(), robot_picture(entries), head, rows));
 }
 
 }  // namespace gaitlab::report

@@ -125,19 +125,21 @@ TEST(Measured, IsAQuantityOfStudies) {
 }
 
 TEST(Measured, TheCheckWarnsOfAnotherMotion) {
-  const auto status = [](const std::string& log) {
-    const Scenario s = scenario(rod() + kBench + kLoop + measured(log));
+  const auto check = [](const std::string& log, const std::string& keys = {}) {
+    const Scenario s = scenario(rod() + kBench + kLoop + measured(log, keys));
     const Recording r = run(s);
     const Verdict v = verdict(s, r, summarise(s, r, 0), overlaps(s, r));
-    return std::ranges::find(v.checks, "measured", &Check::id)->status;
+    return *std::ranges::find(v.checks, "measured", &Check::id);
   };
-  EXPECT_EQ(status(log_text(0.01)), CheckStatus::warn);  // another frequency
+  const Check other = check(log_text(0.01), "  source: \"bench of 3 May, CC BY 4.0\"\n");
+  EXPECT_EQ(other.status, CheckStatus::warn);  // another frequency
+  EXPECT_TRUE(other.text.ends_with("of a log of 2.5 s (bench of 3 May, CC BY 4.0)")) << other.text;
   const Scenario s = scenario(rod() + kBench + kLoop);
   const Recording r = run(s);
   std::string own = "    clock,angle,pwm\n";
   for (std::size_t k = 0; k < r.trace.rows(); ++k)
     own += fmt::format("    {},{},0\n", r.trace.at(k, 0), Table(r.trace).at(k, "joint.0.angle"));
-  EXPECT_EQ(status(own), CheckStatus::pass);
+  EXPECT_EQ(check(own).status, CheckStatus::pass);
 }
 
 TEST(Measured, ReplayGivesTheCommandsOfTheLog) {

@@ -65,6 +65,7 @@ void judge(const CheckedRun& run, Check& made) {
   made.text = "the log has neither angles nor duties";
   if (parts.empty()) return;
   made.text = fmt::format("{}, over {:.3g} s of a log of {:.3g} s", fmt::join(parts, "; "), log->compared, log->from_log);
+  if (const std::string& origin = run.scenario.measured.source; !origin.empty()) made.text += fmt::format(" ({})", origin);
 }
 
 }  // namespace
