@@ -101,18 +101,26 @@ class BodyWalk {
     Pose pose;
   };
 
+  /// A part of a link's visual or collision.
+  struct Geometry {
+    Pose in_link;
+    const urdf::Geometry* of;
+  };
+
   /// The root, or the link that floats above a root without mass. Adds a note if a root `world` fixes the base.
   const urdf::Link* first_link() {
     const urdf::Link* const root = urdf_.model().getRoot().get();
     if (root->inertial != nullptr || root->child_joints.size() != 1) return root;
     const urdf::Joint& joint = *root->child_joints.front();
     if (joint.type == urdf::Joint::FLOATING) {
-      made_.notes.push_back(fmt::format("link {} and floating joint {}: the base of a scenario floats by default",
-                                        in_quotes(root->name), in_quotes(joint.name)));
+      left_out(urdf_.place("link", root->name),
+               fmt::format("link {} and floating joint {}: the base of a scenario floats by default", in_quotes(root->name),
+                           in_quotes(joint.name)));
       return urdf_.model().getLink(joint.child_link_name).get();
     }
     if (joint.type == urdf::Joint::FIXED && root->name == "world")
-      made_.notes.push_back("the fixed base of link 'world'; a scenario fixes the base with robot: {base: fixed}");
+      left_out(urdf_.place("joint", joint.name),
+               "the fixed base of link 'world'; a scenario fixes the base with robot: {base: fixed}");
     return root;
   }
 
@@ -121,6 +129,9 @@ class BodyWalk {
     masses_.emplace_back();
     return made_.bodies.size() - 1;
   }
+
+  void left_out(const SourceLocation& place, const std::string& text) { made_.notes.push_back({place, text, false}); }
+  void changed(const SourceLocation& place, const std::string& text) { made_.notes.push_back({place, text, true}); }
 
   void wrong(const urdf::Joint& joint, const std::string& what) {
     problems_.add(urdf_.place("joint", joint.name), "joint " + in_quotes(joint.name) + " " + what);
@@ -192,21 +203,51 @@ class BodyWalk {
     made.viscous = dynamics.damping;
   }
 
+  /// Adds the shapes that the link's collision has, which touch the ground and other bodies; those of its visual if it has no
+  /// collision, if only the collision has meshes, or if the collision has points alone, as in our own export.
   void add_shapes(const Placed& at) {
-    std::vector<std::pair<Pose, urdf::GeometrySharedPtr>> seen, touched;
-    for (const urdf::VisualSharedPtr& one : at.link->visual_array) seen.emplace_back(pose_of(one->origin), one->geometry);
+    std::vector<Geometry> seen, touched;
+    for (const urdf::VisualSharedPtr& one : at.link->visual_array) seen.push_back({pose_of(one->origin), one->geometry.get()});
     for (const urdf::CollisionSharedPtr& one : at.link->collision_array)
-      touched.emplace_back(pose_of(one->origin), one->geometry);
-    const auto meshes = [](const auto& parts) {
-      return std::ranges::any_of(parts, [](const auto& part) { return part.second->type == urdf::Geometry::MESH; });
+      touched.push_back({pose_of(one->origin), one->geometry.get()});
+    const auto meshes = [](const std::vector<Geometry>& parts) {
+      return std::ranges::any_of(parts, [](const Geometry& part) { return part.of->type == urdf::Geometry::MESH; });
     };
-    const bool drawn = !seen.empty() && (!meshes(seen) || touched.empty());
-    if (!drawn && !seen.empty() && !meshes(touched))
-      made_.notes.push_back("meshes of link " + in_quotes(at.link->name) + "; its collision shapes are used");
-    for (const auto& [pose, geometry] : drawn ? seen : touched) add_shape(at, at.pose * pose, *geometry);
+    const bool drawn = !seen.empty() && !meshes(seen);
+    const bool points = std::ranges::all_of(touched, is_point);
+    const bool visual = !seen.empty() && (touched.empty() || (drawn && (points || meshes(touched))));
+    const SourceLocation place = urdf_.place("link", at.link->name);
+    const std::string name = in_quotes(at.link->name);
+    if (visual && touched.empty())
+      changed(place, fmt::format("link {} has no collision; its visual shapes are its contact", name));
+    if (visual && !points)
+      changed(place, fmt::format("link {} has meshes as collision; its visual shapes are its contact", name));
+    const std::vector<Shape> shapes = shapes_of(visual ? seen : touched, at);
+    if (!visual && !seen.empty() && (!drawn || differ(shapes, shapes_of(seen, at)))) hidden_.push_back(at.link);
+    std::vector<Shape>& all = made_.bodies[at.body].shapes;
+    all.insert(all.end(), shapes.begin(), shapes.end());
   }
 
-  void add_shape(const Placed& at, const Pose& pose, const urdf::Geometry& geometry) {
+  /// A point, as our own export writes contact elements without radius.
+  static bool is_point(const Geometry& part) {
+    return part.of->type == urdf::Geometry::SPHERE && static_cast<const urdf::Sphere&>(*part.of).radius <= kPointRadius;
+  }
+
+  static bool differ(const std::vector<Shape>& a, const std::vector<Shape>& b) {
+    return !std::ranges::equal(a, b, [](const Shape& one, const Shape& other) {
+      return one.kind == other.kind && one.size == other.size && one.in_body.p == other.in_body.p &&
+             one.in_body.R == other.in_body.R;
+    });
+  }
+
+  /// Shapes in the frame of the link's body. Adds a problem for each mesh.
+  std::vector<Shape> shapes_of(const std::vector<Geometry>& parts, const Placed& at) {
+    std::vector<Shape> shapes;
+    for (const Geometry& part : parts) add_shape(at, at.pose * part.in_link, *part.of, shapes);
+    return shapes;
+  }
+
+  void add_shape(const Placed& at, const Pose& pose, const urdf::Geometry& geometry, std::vector<Shape>& shapes) {
     Shape shape{.in_body = pose};
     if (geometry.type == urdf::Geometry::BOX) {
       shape.size = vec(static_cast<const urdf::Box&>(geometry).dim);
@@ -224,7 +265,7 @@ class BodyWalk {
                                 in_quotes(at.link->name), in_quotes(static_cast<const urdf::Mesh&>(geometry).filename)));
       return;
     }
-    made_.bodies[at.body].shapes.push_back(shape);
+    shapes.push_back(shape);
   }
 
   /// Sums the masses, reports bodies without mass, and makes names that a module file allows.
@@ -250,6 +291,12 @@ class BodyWalk {
       }
       names.push_back(body.name);
     }
+    if (!hidden_.empty()) {
+      const std::string first = in_quotes(hidden_.front()->name);
+      left_out(urdf_.place("link", hidden_.front()->name),
+               fmt::format("the visual shapes of {}; those of collision are drawn and touch",
+                           hidden_.size() == 1 ? "link " + first : fmt::format("{} links, first {}", hidden_.size(), first)));
+    }
     for (const UrdfHinge& one : made_.hinges) joints.push_back(one.hinge.name);
     made_.links = std::move(names);
     made_.joints = std::move(joints);
@@ -265,7 +312,8 @@ class BodyWalk {
   void note_names(const char* what, const std::vector<std::string>& given, const std::vector<std::string>& allowed) {
     for (std::size_t i = 0; i < given.size(); ++i) {
       if (given[i] == allowed[i] || given[i].ends_with("/" + allowed[i])) continue;
-      made_.notes.push_back(fmt::format("the name of {} {}, which is {} here", what, in_quotes(given[i]), allowed[i]));
+      left_out(urdf_.place(what, given[i]),
+               fmt::format("the name of {} {}, which is {} here", what, in_quotes(given[i]), allowed[i]));
     }
   }
 
@@ -274,6 +322,7 @@ class BodyWalk {
   UrdfBodies made_;
   std::vector<std::vector<UrdfMass>> masses_;  ///< of the links of each body
   std::vector<Placed> open_;                   ///< links to read
+  std::vector<const urdf::Link*> hidden_;      ///< links whose visual differs from their collision
 };
 
 }  // namespace
@@ -282,8 +331,9 @@ UrdfBodies urdf_bodies(const UrdfText& urdf, Problems& problems) {
   UrdfBodies made = BodyWalk(urdf, problems).read();
   for (const char* tag : {"transmission", "gazebo", "sensor"}) {
     if (const std::size_t number = urdf.count(tag); number > 0)
-      made.notes.push_back(fmt::format("{} of <{}>", counted(number, "element"), tag));
+      made.notes.push_back({urdf.place(), fmt::format("{} of <{}>", counted(number, "element"), tag)});
   }
+  std::ranges::stable_sort(made.notes, {}, [](const UrdfNote& one) { return std::pair(one.place.line, one.place.column); });
   return made;
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/model/module_type.h"
+#include "interchange/urdf_note.h"
 #include "interchange/urdf_text.h"
 
 namespace gaitlab::interchange {
@@ -18,7 +19,7 @@ struct UrdfBodies {
   std::vector<BodyType> bodies;
   std::vector<UrdfHinge> hinges;
   std::vector<std::string> links, joints;  ///< names in the URDF file, which may differ from those of bodies and hinges
-  std::vector<std::string> notes;          ///< parts that were left out
+  std::vector<UrdfNote> notes;             ///< in the order of the file
 };
 
 /// Adds a problem for everything that a module cannot contain; the bodies and hinges are then not valid.

@@ -112,7 +112,10 @@ ModuleText module_text(const UrdfBodies& parts, const std::string& name, const s
       "# Module {}, written by gaitlab new module --from. Units: m, kg, N m, rad, s. Every key: gaitlab explain module\n"
       "# Add faces, where modules dock; replace the motor by that of a data sheet.\n",
       name);
-  for (const std::string& note : parts.notes) text += one_line("# Not carried over: " + note) + "\n";
+  for (const UrdfNote& note : parts.notes) {
+    const std::string line = note.place.line > 0 ? fmt::format(", line {}", note.place.line) : "";
+    text += one_line(fmt::format("# {}{}: {}", note.kind(), line, note.text)) + "\n";
+  }
   ModuleText made{text + fmt::format("gaitlab_module: 1\nname: {}\nsource: {}\nbodies:\n", yaml_text(name), yaml_text(from))};
   for (std::size_t b = 0; b < parts.bodies.size(); ++b) {
     made.begin("link", parts.links[b]);

@@ -19,6 +19,8 @@ class UrdfText {
   [[nodiscard]] const urdf::ModelInterface& model() const { return *model_; }
   /// Place of the first element `tag` whose name is `name`, or of the last; the file if it is not found.
   [[nodiscard]] SourceLocation place(const std::string& tag, const std::string& name, bool last = false) const;
+  /// Place of the file as a whole.
+  [[nodiscard]] SourceLocation place() const { return {file_}; }
   /// Number of elements `tag`.
   [[nodiscard]] std::size_t count(const std::string& tag) const;
 

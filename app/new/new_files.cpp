@@ -66,9 +66,11 @@ int new_module(const NewFileArguments& arguments) {
   std::string text = filled(filled(kSkeletonModule, "@NAME@", name), "@TEXT@", yaml_text(name));
   std::string what = "a module of two bodies and a hinge; replace its numbers by yours";
   bool driven = true;
+  std::size_t changes = 0;
   if (arguments.from) {
     interchange::UrdfModule made = interchange::module_of_urdf(*arguments.from, name);
-    for (const std::string& note : made.notes) say(*arguments.from, "note", "not carried over: " + note);
+    for (const interchange::UrdfNote& note : made.notes) say(to_string(note.place), "note", note.kind() + (": " + note.text));
+    changes = static_cast<std::size_t>(std::ranges::count(made.notes, true, &interchange::UrdfNote::changed));
     text = std::move(made.text);
     what = "the robot of " + *arguments.from + " as a module";
     driven = made.driven;
@@ -86,6 +88,7 @@ int new_module(const NewFileArguments& arguments) {
                                "duration: 5}}",
                                yaml_text(file.find('/') == std::string::npos ? "./" + file : file))));
   }
+  if (changes > 0) fmt::print("{}; read the head of {}\n", counted(changes, "change"), shell_word(file));
   return 0;
 }
 

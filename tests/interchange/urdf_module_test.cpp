@@ -20,6 +20,9 @@ ModuleType module_in(const UrdfModule& made) {
   return type;
 }
 
+/// Small files, each with a fault or a habit of public robots (README.md beside them).
+const std::string kImports = std::string(source_folder()) + "/tests/data/imports/";
+
 constexpr const char* kInertial =
     "<inertial><mass value='2'/><inertia ixx='0.01' iyy='0.02' izz='0.02' ixy='0' ixz='0' iyz='0'/></inertial>";
 constexpr const char* kLimit = "<limit lower='-1' upper='2' effort='5' velocity='3'/>";
@@ -45,9 +48,16 @@ class FromUrdf : public ::testing::Test {
     for (std::size_t at = text.find(place); at != std::string::npos; at = text.find(place)) text.replace(at, place.size(), "r");
     return text;
   }
+  /// Notes of the module that was read last, as `LINE Changed: TEXT`; line 0 means the whole file.
+  std::vector<std::string> notes() const {
+    std::vector<std::string> texts;
+    for (const UrdfNote& note : made_.notes) texts.push_back(fmt::format("{} {}: {}", note.place.line, note.kind(), note.text));
+    return texts;
+  }
   UrdfModule made_;
   Folder folder_;
 };
+using Texts = std::vector<std::string>;
 
 const BodyType& body_of(const ModuleType& type, const std::string& name) {
   const auto found = std::ranges::find(type.bodies, name, &BodyType::name);
@@ -154,9 +164,9 @@ TEST_F(FromUrdf, MotorsAndPassiveHinges) {
       << made_.text;
   EXPECT_TRUE(contains(made_.text, "    actuator: {stall_torque: 1, no_load_speed: 4, dry_friction: 0, viscous_friction: 1}\n"))
       << made_.text;
-  EXPECT_EQ(made_.notes, (std::vector<std::string>{"the name of joint 'dock', which is dock_2 here",
-                                                   "the name of joint 'x y', which is x_y here", "1 element of <transmission>",
-                                                   "2 elements of <gazebo>"}));
+  EXPECT_EQ(notes(), (Texts{"0 Not carried over: 1 element of <transmission>", "0 Not carried over: 2 elements of <gazebo>",
+                            "6 Not carried over: the name of joint 'dock', which is dock_2 here",
+                            "7 Not carried over: the name of joint 'x y', which is x_y here"}));
 }
 
 /// One message lists everything that a module cannot contain, in the order of the file.
@@ -228,17 +238,17 @@ TEST_F(FromUrdf, TheLinkWorldIsTheBase) {
   const ModuleType type = read_urdf(urdf_link("world", "") + urdf_link("a") + urdf_joint("f", "floating", "world", "a", ""));
   ASSERT_EQ(type.bodies.size(), 1U);
   EXPECT_EQ(type.bodies[0].name, "a");
-  EXPECT_EQ(made_.notes,
-            (std::vector<std::string>{"link 'world' and floating joint 'f': the base of a scenario floats by default"}));
+  EXPECT_EQ(notes(),
+            (Texts{"2 Not carried over: link 'world' and floating joint 'f': the base of a scenario floats by default"}));
   read_urdf(urdf_link("world", "") + urdf_link("a") + urdf_joint("f", "fixed", "world", "a", ""));
-  EXPECT_EQ(made_.notes,
-            (std::vector<std::string>{"the fixed base of link 'world'; a scenario fixes the base with robot: {base: fixed}"}));
+  EXPECT_EQ(notes(), (Texts{"4 Not carried over: the fixed base of link 'world'; a scenario fixes the base with robot: {base: "
+                            "fixed}"}));
 }
 
 TEST_F(FromUrdf, NamesThatChangeAreNoted) {
   const ModuleType type = read_urdf(urdf_link("k\u00f6rper"));
   EXPECT_EQ(type.bodies[0].name, "k_rper");
-  EXPECT_EQ(made_.notes, (std::vector<std::string>{"the name of link 'k\u00f6rper', which is k_rper here"}));
+  EXPECT_EQ(notes(), (Texts{"2 Not carried over: the name of link 'k\u00f6rper', which is k_rper here"}));
 }
 
 /// Readers of YAML such as PyYAML end a line, and with it a comment, at these characters, or refuse the file (U+FFFE).
@@ -247,7 +257,7 @@ TEST_F(FromUrdf, NamesStayWithinTheirComments) {
     read_urdf(urdf_link("a" + mark + "mass: 3"));
     ASSERT_EQ(made_.notes.size(), 1U);
     EXPECT_EQ(made_.text.find(mark), std::string::npos) << made_.text;
-    EXPECT_NE(made_.text.find("# Not carried over: the name of link 'a\\x"), std::string::npos) << made_.text;
+    EXPECT_NE(made_.text.find("# Not carried over, line 2: the name of link 'a\\x"), std::string::npos) << made_.text;
   }
 }
 
@@ -285,7 +295,39 @@ TEST_F(FromUrdf, CollisionReplacesMeshes) {
   EXPECT_EQ(shape.kind, Shape::Kind::cylinder);
   EXPECT_EQ(shape.size, Vec3(0.1, 0.3, 0));
   EXPECT_LT((shape.in_body.R * Vec3::UnitY() - Vec3::UnitZ()).norm(), 1e-15);
-  EXPECT_EQ(made_.notes, (std::vector<std::string>{"meshes of link 'a'; its collision shapes are used"}));
+  EXPECT_EQ(notes(), (Texts{"2 Not carried over: the visual shapes of link 'a'; those of collision are drawn and touch"}));
+}
+
+/// What touches is the collision, not what is drawn: a sphere of 0.02 m within a drawn one of 0.10 m.
+TEST_F(FromUrdf, CollisionIsTheContact) {
+  const ModuleType type = module_in(made_ = module_of_urdf(kImports + "visual_is_not_contact.urdf", "ball"));
+  ASSERT_EQ(body_of(type, "body").shapes.size(), 1U);
+  EXPECT_EQ(body_of(type, "body").shapes[0].size.x(), 0.02);
+  EXPECT_EQ(notes(), (Texts{"3 Not carried over: the visual shapes of link 'body'; those of collision are drawn and touch"}));
+}
+
+TEST_F(FromUrdf, VisualIsTheContactOnlyWithoutCollision) {
+  const auto part = [](const std::string& tag, const std::string& shape) {
+    return "<" + tag + "><geometry>" + shape + "</geometry></" + tag + ">";
+  };
+  const std::string mesh = "<mesh filename='a.stl'/>";
+  read_urdf(urdf_link("a", kInertial + part("visual", "<sphere radius='0.1'/>")));
+  EXPECT_EQ(notes(), Texts{"2 Changed: link 'a' has no collision; its visual shapes are its contact"});
+  const ModuleType type =
+      read_urdf(urdf_link("a", kInertial + part("visual", "<sphere radius='0.1'/>") + part("collision", mesh)));
+  EXPECT_EQ(type.bodies[0].shapes.at(0).kind, Shape::Kind::sphere);
+  EXPECT_EQ(notes(), Texts{"2 Changed: link 'a' has meshes as collision; its visual shapes are its contact"});
+  const std::string same = "<box size='1 2 3'/>";
+  read_urdf(urdf_link("a", kInertial + part("visual", same) + part("collision", same)));
+  EXPECT_EQ(notes(), Texts{}) << "equal shapes lose nothing";
+}
+
+/// Our own export has the contact elements as collision. Points alone do not replace the shapes.
+TEST_F(FromUrdf, PointsOfOurExportAreNotShapes) {
+  const Scenario one = scenario("robot: {modules: y1}\ncontact: {on: all}\nduration: 1\n");
+  const ModuleType back = module_in(made_ = module_of_urdf(folder_.write("m.urdf", to_urdf(one)), "back"));
+  for (const BodyType& body : one.robot->types[0].bodies)
+    EXPECT_EQ(body_of(back, body.name).shapes.size(), body.shapes.size()) << body.name;
 }
 
 }  // namespace
