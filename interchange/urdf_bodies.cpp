@@ -3,12 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <numbers>
 #include <set>
 
+#include "core/model/solid.h"
 #include "core/settings/wording.h"
 #include "interchange/robot_xml.h"
 #include "interchange/urdf.h"
+#include "interchange/urdf_joined.h"
 
 namespace gaitlab::interchange {
 
@@ -34,6 +38,8 @@ const char* type_name(int type) {
   }
 }
 
+constexpr double kWater = 1000;  // kg/m^3
+
 /// Mass of a link, in the frame of its body.
 struct UrdfMass {
   double mass;
@@ -55,6 +61,21 @@ UrdfMass united_mass(const std::vector<UrdfMass>& parts) {
     whole.inertia += part.inertia + part.mass * (d.squaredNorm() * Mat3::Identity() - d * d.transpose());
   }
   return whole;
+}
+
+constexpr const char* kFixedBase = "a scenario fixes it with robot: {base: fixed}";
+
+/// Inertia of a body with mass at uniform density: that of its shapes, or without shapes that of a ball of water.
+Mat3 usual_inertia(const BodyType& body) {
+  constexpr double kLeast = 1e-9;  // m; shapes of an absurd size are refused later
+  const auto sound = [](const Shape& shape) {
+    const std::size_t sizes = shape.kind == Shape::Kind::box ? 3 : shape.kind == Shape::Kind::sphere ? 1 : 2;
+    return std::all_of(shape.size.data(), shape.size.data() + sizes, [](double x) { return x > kLeast && x < 1 / kLeast; });
+  };
+  const bool usable = !body.shapes.empty() && body.shapes.size() <= kMostShapes && std::ranges::all_of(body.shapes, sound);
+  if (usable) return united(body.shapes).inertia(body.mass);
+  const double radius = std::cbrt(3 * body.mass / (4 * std::numbers::pi * kWater));
+  return 0.4 * body.mass * radius * radius * Mat3::Identity();
 }
 
 /// Names for the module file from the names in URDF, in the same order. Prefixes such as `m0/` are removed if all names then
@@ -82,6 +103,7 @@ class BodyWalk {
   BodyWalk(const UrdfText& urdf, Problems& problems) : urdf_(urdf), problems_(problems) {}
 
   UrdfBodies read() {
+    joined_ = joined_joints(urdf_, made_.notes);
     const urdf::Link* const root = first_link();
     open_.push_back({root, add_body(*root), {}});
     while (!open_.empty()) {
@@ -118,9 +140,10 @@ class BodyWalk {
                            in_quotes(joint.name)));
       return urdf_.model().getLink(joint.child_link_name).get();
     }
-    if (joint.type == urdf::Joint::FIXED && root->name == "world")
-      left_out(urdf_.place("joint", joint.name),
-               "the fixed base of link 'world'; a scenario fixes the base with robot: {base: fixed}");
+    if (joint.type == urdf::Joint::FIXED && root->name == "world") {
+      made_.fixed_base = true;
+      left_out(urdf_.place("joint", joint.name), fmt::format("the fixed base of link 'world'; {}", kFixedBase));
+    }
     return root;
   }
 
@@ -146,7 +169,7 @@ class BodyWalk {
     for (const urdf::JointSharedPtr& joint : link.child_joints) {
       const urdf::LinkConstSharedPtr child = urdf_.model().getLink(joint->child_link_name);
       const Pose pose = at.pose * pose_of(joint->parent_to_joint_origin_transform);
-      if (joint->type == urdf::Joint::FIXED) {
+      if (joined_.contains(joint.get())) {
         next.push_back({child.get(), at.body, pose});
         continue;
       }
@@ -282,7 +305,9 @@ class BodyWalk {
       body.mass = whole.mass;
       body.com = whole.com;
       body.inertia = whole.inertia;
-      if (!(body.mass > 0) && !(inner[b] && moved[b])) {
+      if (body.mass == 0 && inner[b] && !moved[b]) {
+        fix_base(body);
+      } else if (!(body.mass > 0) && !(inner[b] && moved[b])) {
         const std::string found =
             masses_[b].empty() ? "no mass; expected inertial" : "mass " + number_text(body.mass) + " kg; expected more than 0";
         problems_.add(
@@ -308,6 +333,17 @@ class BodyWalk {
     note_names("joint", made_.joints, hinges);
   }
 
+  /// Gives the root, which has no mass and of which a hinge moves the rest, a mass; it does not matter, because nothing moves
+  /// the root.
+  void fix_base(BodyType& root) {
+    made_.fixed_base = true;
+    root.mass = 1;
+    root.inertia = usual_inertia(root);
+    changed(urdf_.place("link", root.name),
+            fmt::format("link {} has no mass, and a joint moves the rest: the base is fixed, its mass is 1 kg; {}",
+                        in_quotes(root.name), kFixedBase));
+  }
+
   /// Adds a note on each name that was changed, other than by removing a prefix.
   void note_names(const char* what, const std::vector<std::string>& given, const std::vector<std::string>& allowed) {
     for (std::size_t i = 0; i < given.size(); ++i) {
@@ -322,6 +358,7 @@ class BodyWalk {
   UrdfBodies made_;
   std::vector<std::vector<UrdfMass>> masses_;  ///< of the links of each body
   std::vector<Placed> open_;                   ///< links to read
+  std::set<const urdf::Joint*> joined_;        ///< joints whose links are one body
   std::vector<const urdf::Link*> hidden_;      ///< links whose visual differs from their collision
 };
 

@@ -18,6 +18,7 @@ struct UrdfHinge {
 struct UrdfBodies {
   std::vector<BodyType> bodies;
   std::vector<UrdfHinge> hinges;
+  bool fixed_base = false;                 ///< true if the root does not move in the world
   std::vector<std::string> links, joints;  ///< names in the URDF file, which may differ from those of bodies and hinges
   std::vector<UrdfNote> notes;             ///< in the order of the file
 };

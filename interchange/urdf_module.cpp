@@ -127,8 +127,11 @@ ModuleText module_text(const UrdfBodies& parts, const std::string& name, const s
     made.text += hinge_text(parts.hinges[j], parts, common);
   }
   made.begin("robot", "");
-  if (std::ranges::any_of(parts.bodies, [](const BodyType& body) { return !body.shapes.empty(); }))
-    made.text += "contacts: {all: shapes}\n";
+  const bool shapes = std::ranges::any_of(parts.bodies, [](const BodyType& body) { return !body.shapes.empty(); });
+  // Without contacts `new scenario` writes a fixed base and no ground: an arm on the ground would bend on its start.
+  if (shapes && parts.fixed_base)
+    made.text += "# The base is fixed. For an arm that may touch the ground: contacts: {all: shapes}\n";
+  if (shapes && !parts.fixed_base) made.text += "contacts: {all: shapes}\n";
   if (common == nullptr) return made;
   made.text += fmt::format(
       "actuator: {{type: servo, voltage: {}, {}, load_friction: 0, rotor_inertia: 0, source: "

@@ -1,6 +1,9 @@
 // Modules from URDF: round trips through our own export, links that fixed joints connect, and everything that is refused.
 #include "interchange/urdf_module.h"
 
+#include <cmath>
+#include <numbers>
+
 #include "core/robot_files/module_file.h"
 #include "core/settings/shipped_files.h"
 #include "interchange/urdf.h"
@@ -174,12 +177,11 @@ TEST_F(FromUrdf, RefusesInOneList) {
   const std::string mesh = "<visual><geometry><mesh filename='a.stl'/></geometry></visual>";
   const std::string others = " a module has revolute, continuous and fixed joints\n";
   EXPECT_EQ(
-      refused(urdf_link("a", kInertial + mesh) + urdf_link("b", "") + urdf_link("c") + urdf_link("d") + urdf_link("e") +
+      refused(urdf_link("a", kInertial + mesh) + urdf_link("b") + urdf_link("c") + urdf_link("d") + urdf_link("e") +
               urdf_joint("ab", "prismatic", "a", "b", kLimit) + urdf_joint("ac", "floating", "a", "c", "") +
               urdf_joint("ad", "planar", "a", "d", "") +
               urdf_joint("ae", "revolute", "a", "e", "<mimic joint='ad'/><limit effort='1000000' velocity='0'/>")),
       "r:2:1: error: link 'a' has the mesh 'a.stl'; expected box, cylinder or sphere, at least as collision\n"
-      "r:3:1: error: link 'b' has no mass; expected inertial (only a link between two hinges may have none)\n"
       "r:7:1: error: joint 'ab' is prismatic;" +
           others + "r:8:1: error: joint 'ac' is floating;" + others + "r:9:1: error: joint 'ad' is planar;" + others +
           "r:10:1: error: joint 'ae' mimics 'ad'; every hinge of a module moves independently\n"
@@ -187,6 +189,8 @@ TEST_F(FromUrdf, RefusesInOneList) {
           "1000000\n"
           "r:10:1: error: joint 'ae' has velocity 0; expected the no-load speed, rad/s, of its motor, above 0 and below "
           "1000000");
+  EXPECT_EQ(refused(urdf_link("a", "")),
+            "r:2:1: error: link 'a' has no mass; expected inertial (only a link between two hinges may have none)");
   EXPECT_EQ(refused(urdf_link("a") + urdf_link("b")),
             "r: error: urdfdom: Failed to find root link: Two root links found: [a] and [b]");
   EXPECT_EQ(
@@ -241,8 +245,39 @@ TEST_F(FromUrdf, TheLinkWorldIsTheBase) {
   EXPECT_EQ(notes(),
             (Texts{"2 Not carried over: link 'world' and floating joint 'f': the base of a scenario floats by default"}));
   read_urdf(urdf_link("world", "") + urdf_link("a") + urdf_joint("f", "fixed", "world", "a", ""));
-  EXPECT_EQ(notes(), (Texts{"4 Not carried over: the fixed base of link 'world'; a scenario fixes the base with robot: {base: "
-                            "fixed}"}));
+  EXPECT_EQ(notes(),
+            (Texts{"4 Not carried over: the fixed base of link 'world'; a scenario fixes it with robot: {base: fixed}"}));
+}
+
+/// A root without mass that a hinge moves stands still. Its mass of 1 kg has the inertia of its shapes, m (b^2 + c^2) / 12.
+TEST_F(FromUrdf, ARootWithoutMassIsAFixedBase) {
+  const std::string box = "<collision><geometry><box size='0.1 0.2 0.3'/></geometry></collision>";
+  const ModuleType type = read_urdf(urdf_link("stand", box) + urdf_link("arm", kInertial + box) +
+                                    urdf_joint("j", "revolute", "stand", "arm", kLimit));
+  EXPECT_EQ(body_of(type, "stand").mass, 1);
+  EXPECT_NEAR(body_of(type, "stand").inertia(0, 0), (0.04 + 0.09) / 12, 1e-16);
+  EXPECT_TRUE(type.all.empty()) << "without contacts, new scenario fixes the base";
+  EXPECT_EQ(notes().at(0),
+            "2 Changed: link 'stand' has no mass, and a joint moves the rest: the base is fixed, its mass is 1 kg; a scenario "
+            "fixes it with robot: {base: fixed}");
+  const ModuleType bare =
+      read_urdf(urdf_link("stand", "") + urdf_link("arm") + urdf_joint("j", "revolute", "stand", "arm", kLimit));
+  EXPECT_NEAR(body_of(bare, "stand").inertia(0, 0), 0.4 * std::pow(3 / (4 * std::numbers::pi * 1000), 2.0 / 3), 1e-15)
+      << "a ball of water";
+}
+
+/// Frames without mass at the end of the tree move nothing. Their shapes stay, on the link before them.
+TEST_F(FromUrdf, FramesWithoutMassAreJoined) {
+  const std::string ball = "<collision><geometry><sphere radius='0.1'/></geometry></collision>";
+  const ModuleType type =
+      read_urdf(urdf_link("a") + urdf_link("b") + urdf_link("tip", "") + urdf_link("end", ball) +
+                urdf_joint("ab", "revolute", "a", "b", kLimit) +
+                urdf_joint("slide", "prismatic", "b", "tip", std::string("<origin xyz='0 0 1'/>") + kLimit) +
+                urdf_joint("turn", "revolute", "tip", "end", std::string("<origin xyz='0 0 1'/>") + kLimit));
+  ASSERT_EQ(type.hinges.size(), 1U);
+  EXPECT_EQ(body_of(type, "b").shapes.at(0).in_body.p, Vec3(0, 0, 2));
+  EXPECT_EQ(notes().at(0), "7 Changed: joint 'slide' moves only link 'tip', which has no mass; it is fixed at 0");
+  EXPECT_EQ(notes().at(1), "8 Changed: joint 'turn' moves only link 'end', which has no mass; it is fixed at 0");
 }
 
 TEST_F(FromUrdf, NamesThatChangeAreNoted) {

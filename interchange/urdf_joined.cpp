@@ -1,0 +1,59 @@
+#include "interchange/urdf_joined.h"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <ranges>
+
+#include "core/settings/wording.h"
+
+namespace gaitlab::interchange {
+
+namespace {
+
+/// Links from the root outwards, each after its parent.
+std::vector<const urdf::Link*> links_outwards(const urdf::ModelInterface& model) {
+  std::vector<const urdf::Link*> links{model.getRoot().get()};
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    for (const urdf::LinkSharedPtr& child : std::vector(links[i]->child_links)) links.push_back(child.get());
+  }
+  return links;
+}
+
+/// Properties of a link and of all that is joined to it.
+struct JoinedGroup {
+  bool mass = false, moves = false;  ///< true if it has mass; true if it is the parent of a joint that moves
+};
+
+}  // namespace
+
+std::set<const urdf::Joint*> joined_joints(const UrdfText& urdf, std::vector<UrdfNote>& notes) {
+  std::set<const urdf::Joint*> joined;
+  std::map<const urdf::Link*, JoinedGroup> groups;
+  const std::vector<const urdf::Link*> links = links_outwards(urdf.model());
+  for (const urdf::Link* const link : std::views::reverse(links)) {
+    JoinedGroup& own = groups[link];
+    own.mass = own.mass || (link->inertial != nullptr && link->inertial->mass != 0);
+    const urdf::Joint* const joint = link->parent_joint.get();
+    if (joint == nullptr) continue;
+    JoinedGroup& parent = groups[urdf.model().getLink(joint->parent_link_name).get()];
+    const bool fixed = joint->type == urdf::Joint::FIXED;
+    const bool frame = !fixed && !own.mass && !own.moves;
+    if (frame) {
+      notes.push_back({urdf.place("joint", joint->name),
+                       fmt::format("joint {} moves only link {}, which has no mass; it is fixed at 0", in_quotes(joint->name),
+                                   in_quotes(link->name)),
+                       true});
+    }
+    if (fixed || frame) {
+      joined.insert(joint);
+      parent.mass = parent.mass || own.mass;
+      parent.moves = parent.moves || own.moves;
+    } else {
+      parent.moves = true;
+    }
+  }
+  return joined;
+}
+
+}  // namespace gaitlab::interchange
