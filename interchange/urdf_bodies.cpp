@@ -199,31 +199,8 @@ class BodyWalk {
       wrong(joint, fmt::format("mimics {}; every hinge of a module moves independently", in_quotes(joint.mimic->joint_name)));
     made.hinge.lo = free ? -kNoStop : joint.limits->lower;
     made.hinge.hi = free ? kNoStop : joint.limits->upper;
-    add_motor(joint, made);
+    read_motor(joint, urdf_, made, problems_);
     made_.hinges.push_back(made);
-  }
-
-  void add_motor(const urdf::Joint& joint, UrdfHinge& made) {
-    const urdf::JointDynamics none{};
-    const urdf::JointDynamics& dynamics = joint.dynamics == nullptr ? none : *joint.dynamics;
-    if (joint.limits == nullptr) {
-      return wrong(joint, "has no limit; expected effort and velocity of its motor, or effort 0 for a joint without a motor");
-    }
-    if (joint.limits->effort == 0) {
-      made.hinge.passive = Passive{.damping = dynamics.damping, .friction = dynamics.friction};
-      return;
-    }
-    made.effort = joint.limits->effort;
-    made.speed = joint.limits->velocity;
-    const auto check = [&](const char* key, double value, const char* what) {
-      if (value > 0 && value < kUnlimited) return;
-      wrong(joint, fmt::format("has {} {}; expected {} of its motor, above 0 and below {}", key, number_text(value), what,
-                               number_text(kUnlimited)));
-    };
-    check("effort", made.effort, "the torque at rest, N m,");
-    check("velocity", made.speed, "the no-load speed, rad/s,");
-    made.dry = dynamics.friction;
-    made.viscous = dynamics.damping;
   }
 
   /// Adds the shapes that the link's collision has, which touch the ground and other bodies; those of its visual if it has no
@@ -316,6 +293,7 @@ class BodyWalk {
       }
       names.push_back(body.name);
     }
+    choose_motors(made_.bodies, urdf_, made_.hinges, made_.notes);
     if (!hidden_.empty()) {
       const std::string first = in_quotes(hidden_.front()->name);
       left_out(urdf_.place("link", hidden_.front()->name),

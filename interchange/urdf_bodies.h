@@ -4,16 +4,11 @@
 #include <vector>
 
 #include "core/model/module_type.h"
+#include "interchange/urdf_motor.h"
 #include "interchange/urdf_note.h"
 #include "interchange/urdf_text.h"
 
 namespace gaitlab::interchange {
-
-struct UrdfHinge {
-  HingeType hinge;               ///< parent and child: indices of UrdfBodies::bodies
-  double effort = 0, speed = 0;  ///< motor's torque at rest, N m, and no-load speed, rad/s; 0 without a motor
-  double dry = 0, viscous = 0;   ///< friction of a driven joint, N m, N m s/rad
-};
 
 struct UrdfBodies {
   std::vector<BodyType> bodies;

@@ -66,6 +66,10 @@ std::string motor_text(const UrdfHinge& hinge) {
   return fmt::format("stall_torque: {}, no_load_speed: {}, dry_friction: {}, viscous_friction: {}", number_text(hinge.effort),
                      number_text(hinge.speed), number_text(hinge.dry), number_text(hinge.viscous));
 }
+/// These keys, and the source where one of them was chosen.
+std::string sourced_motor_text(const UrdfHinge& hinge) {
+  return motor_text(hinge) + (hinge.source.empty() ? "" : ", source: " + yaml_text(hinge.source));
+}
 std::string gain_text(const UrdfHinge& hinge) {
   const double period = Scenario().control_period;
   return fmt::format("Kp: {:.3g}", gain_of_share(kUsualShare, kVoltage, hinge.speed, period));
@@ -83,8 +87,8 @@ std::string hinge_text(const UrdfHinge& one, const UrdfBodies& parts, const Urdf
   if (hinge.passive) {
     text += fmt::format("    drive: none\n    damping: {}\n    friction: {}\n", number_text(hinge.passive->damping),
                         number_text(hinge.passive->friction));
-  } else if (motor_text(one) != motor_text(*common)) {
-    text += fmt::format("    actuator: {{{}}}\n    controller: {{{}}}\n", motor_text(one), gain_text(one));
+  } else if (sourced_motor_text(one) != sourced_motor_text(*common)) {
+    text += fmt::format("    actuator: {{{}}}\n    controller: {{{}}}\n", sourced_motor_text(one), gain_text(one));
   }
   return text;
 }
@@ -104,9 +108,17 @@ struct ModuleText {
   }
 };
 
+/// The hinge whose motor is that of the module: the first with a motor that the file states, else the first with a motor.
+const UrdfHinge* common_motor(const std::vector<UrdfHinge>& hinges) {
+  const auto driven = [](const UrdfHinge& one) { return !one.hinge.passive; };
+  const auto stated = [&](const UrdfHinge& one) { return driven(one) && one.source.empty(); };
+  auto at = std::ranges::find_if(hinges, stated);
+  if (at == hinges.end()) at = std::ranges::find_if(hinges, driven);
+  return at == hinges.end() ? nullptr : &*at;
+}
+
 ModuleText module_text(const UrdfBodies& parts, const std::string& name, const std::string& file) {
-  const auto driven = std::ranges::find_if(parts.hinges, [](const UrdfHinge& one) { return !one.hinge.passive; });
-  const UrdfHinge* common = driven == parts.hinges.end() ? nullptr : &*driven;
+  const UrdfHinge* const common = common_motor(parts.hinges);
   const std::string from = std::filesystem::path(file).filename().string();
   std::string text = fmt::format(
       "# Module {}, written by gaitlab new module --from. Units: m, kg, N m, rad, s. Every key: gaitlab explain module\n"
@@ -137,7 +149,9 @@ ModuleText module_text(const UrdfBodies& parts, const std::string& name, const s
       "actuator: {{type: servo, voltage: {}, {}, load_friction: 0, rotor_inertia: 0, source: "
       "{}}}\ncontroller: {{type: pid, {}, Kd: 0}}\n",
       number_text(kVoltage), motor_text(*common),
-      yaml_text("chosen: the voltage, because URDF has none; torque and speed are the effort and velocity in " + from),
+      yaml_text(common->source.empty()
+                    ? "chosen: the voltage, because URDF has none; torque and speed are the effort and velocity in " + from
+                    : common->source + "; the voltage, because URDF has none"),
       gain_text(*common));
   return made;
 }

@@ -167,36 +167,66 @@ TEST_F(FromUrdf, MotorsAndPassiveHinges) {
       << made_.text;
   EXPECT_TRUE(contains(made_.text, "    actuator: {stall_torque: 1, no_load_speed: 4, dry_friction: 0, viscous_friction: 1}\n"))
       << made_.text;
-  EXPECT_EQ(notes(), (Texts{"0 Not carried over: 1 element of <transmission>", "0 Not carried over: 2 elements of <gazebo>",
+  EXPECT_EQ(notes(), (Texts{"0 Changed: effort and velocity become the ends of a motor's line",
+                            "0 Not carried over: 1 element of <transmission>", "0 Not carried over: 2 elements of <gazebo>",
                             "6 Not carried over: the name of joint 'dock', which is dock_2 here",
                             "7 Not carried over: the name of joint 'x y', which is x_y here"}));
+}
+
+/// Motors of joints without a limit hold twice the weight of all that they move, at its full lever: T = 2 m g L. The stretched
+/// chain has its farthest centre of mass at 0.3 + 0.4 m from the first hinge, at 0.5 m from the second.
+TEST_F(FromUrdf, MotorsAreChosenWithoutALimit) {
+  const std::string far =
+      "<inertial><origin xyz='0 0.3 0.4'/><mass value='3'/>"
+      "<inertia ixx='0.1' iyy='0.1' izz='0.1' ixy='0' ixz='0' iyz='0'/></inertial>";
+  read_urdf(
+      urdf_link("a") + urdf_link("b") + urdf_link("c", far) + urdf_link("w") + urdf_link("s") +
+      urdf_joint("ab", "continuous", "a", "b", "<dynamics damping='0.7'/>") +
+      urdf_joint("bc", "revolute", "b", "c", "<origin xyz='0.3 0 0'/><limit lower='-1' upper='1' effort='1e5' velocity='4'/>") +
+      urdf_joint("aw", "continuous", "a", "w", "<limit effort='3' velocity='1001'/>") +
+      urdf_joint("bw", "continuous", "b", "s", "<limit effort='3' velocity='7'/>"));
+  const double first = 2 * 9.81 * (2 + 3 + 2) * 0.8;
+  const double second = 2 * 9.81 * 3 * 0.5;
+  EXPECT_EQ(notes(),
+            (Texts{"0 Changed: effort and velocity become the ends of a motor's line",
+                   fmt::format(
+                       "7 Changed: joint 'ab' has no limit of a motor; {:.3g} N m at rest and 20 rad/s without load are chosen",
+                       first),
+                   fmt::format("8 Changed: joint 'bc' has no effort of a motor; {:.3g} N m at rest is chosen", second),
+                   "9 Changed: joint 'aw' has no velocity of a motor; 20 rad/s without load is chosen"}));
+  EXPECT_TRUE(contains(made_.text, fmt::format("    actuator: {{stall_torque: {:.3g}, no_load_speed: 20, dry_friction: 0, "
+                                               "viscous_friction: 0.7, source: \"chosen: the URDF has no limit\"}}\n",
+                                               first)))
+      << made_.text;
+  EXPECT_TRUE(contains(made_.text, "actuator: {type: servo, voltage: 12, stall_torque: 3, no_load_speed: 7,")) << made_.text;
+}
+
+/// A wheel has its centre of mass on its axis: the lever is the radius of gyration, sqrt(0.02 / 2) = 0.1 m.
+TEST_F(FromUrdf, AWheelWithoutALimit) {
+  read_urdf(urdf_link("a") + urdf_link("b") + urdf_joint("j", "continuous", "a", "b", ""));
+  EXPECT_TRUE(contains(made_.text, "stall_torque: 3.92, no_load_speed: 20,")) << made_.text;
+  EXPECT_TRUE(contains(made_.text, "source: \"chosen: the URDF has no limit; the voltage, because URDF has none\""))
+      << made_.text;
 }
 
 /// One message lists everything that a module cannot contain, in the order of the file.
 TEST_F(FromUrdf, RefusesInOneList) {
   const std::string mesh = "<visual><geometry><mesh filename='a.stl'/></geometry></visual>";
   const std::string others = " a module has revolute, continuous and fixed joints\n";
-  EXPECT_EQ(
-      refused(urdf_link("a", kInertial + mesh) + urdf_link("b") + urdf_link("c") + urdf_link("d") + urdf_link("e") +
-              urdf_joint("ab", "prismatic", "a", "b", kLimit) + urdf_joint("ac", "floating", "a", "c", "") +
-              urdf_joint("ad", "planar", "a", "d", "") +
-              urdf_joint("ae", "revolute", "a", "e", "<mimic joint='ad'/><limit effort='1000000' velocity='0'/>")),
-      "r:2:1: error: link 'a' has the mesh 'a.stl'; expected box, cylinder or sphere, at least as collision\n"
-      "r:7:1: error: joint 'ab' is prismatic;" +
-          others + "r:8:1: error: joint 'ac' is floating;" + others + "r:9:1: error: joint 'ad' is planar;" + others +
-          "r:10:1: error: joint 'ae' mimics 'ad'; every hinge of a module moves independently\n"
-          "r:10:1: error: joint 'ae' has effort 1000000; expected the torque at rest, N m, of its motor, above 0 and below "
-          "1000000\n"
-          "r:10:1: error: joint 'ae' has velocity 0; expected the no-load speed, rad/s, of its motor, above 0 and below "
-          "1000000");
+  EXPECT_EQ(refused(urdf_link("a", kInertial + mesh) + urdf_link("b") + urdf_link("c") + urdf_link("d") + urdf_link("e") +
+                    urdf_joint("ab", "prismatic", "a", "b", kLimit) + urdf_joint("ac", "floating", "a", "c", "") +
+                    urdf_joint("ad", "planar", "a", "d", "") +
+                    urdf_joint("ae", "revolute", "a", "e", "<mimic joint='ad'/><limit effort='-1' velocity='-2'/>")),
+            "r:2:1: error: link 'a' has the mesh 'a.stl'; expected box, cylinder or sphere, at least as collision\n"
+            "r:7:1: error: joint 'ab' is prismatic;" +
+                others + "r:8:1: error: joint 'ac' is floating;" + others + "r:9:1: error: joint 'ad' is planar;" + others +
+                "r:10:1: error: joint 'ae' mimics 'ad'; every hinge of a module moves independently\n"
+                "r:10:1: error: joint 'ae' has effort -1; expected the torque at rest, N m, of its motor, not negative\n"
+                "r:10:1: error: joint 'ae' has velocity -2; expected the no-load speed, rad/s, of its motor, not negative");
   EXPECT_EQ(refused(urdf_link("a", "")),
             "r:2:1: error: link 'a' has no mass; expected inertial (only a link between two hinges may have none)");
   EXPECT_EQ(refused(urdf_link("a") + urdf_link("b")),
             "r: error: urdfdom: Failed to find root link: Two root links found: [a] and [b]");
-  EXPECT_EQ(
-      refused(urdf_link("a") + urdf_link("b") + urdf_joint("j", "continuous", "a", "b", "")),
-      "r:4:1: error: joint 'j' has no limit; expected effort and velocity of its motor, or effort 0 for a joint without a "
-      "motor");
   EXPECT_EQ(
       refused(urdf_link("a",
                         "<inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='4' ixy='0' ixz='0' iyz='0'/>"
@@ -257,7 +287,7 @@ TEST_F(FromUrdf, ARootWithoutMassIsAFixedBase) {
   EXPECT_EQ(body_of(type, "stand").mass, 1);
   EXPECT_NEAR(body_of(type, "stand").inertia(0, 0), (0.04 + 0.09) / 12, 1e-16);
   EXPECT_TRUE(type.all.empty()) << "without contacts, new scenario fixes the base";
-  EXPECT_EQ(notes().at(0),
+  EXPECT_EQ(notes().at(1),
             "2 Changed: link 'stand' has no mass, and a joint moves the rest: the base is fixed, its mass is 1 kg; a scenario "
             "fixes it with robot: {base: fixed}");
   const ModuleType bare =
@@ -276,8 +306,8 @@ TEST_F(FromUrdf, FramesWithoutMassAreJoined) {
                 urdf_joint("turn", "revolute", "tip", "end", std::string("<origin xyz='0 0 1'/>") + kLimit));
   ASSERT_EQ(type.hinges.size(), 1U);
   EXPECT_EQ(body_of(type, "b").shapes.at(0).in_body.p, Vec3(0, 0, 2));
-  EXPECT_EQ(notes().at(0), "7 Changed: joint 'slide' moves only link 'tip', which has no mass; it is fixed at 0");
-  EXPECT_EQ(notes().at(1), "8 Changed: joint 'turn' moves only link 'end', which has no mass; it is fixed at 0");
+  EXPECT_EQ(notes().at(1), "7 Changed: joint 'slide' moves only link 'tip', which has no mass; it is fixed at 0");
+  EXPECT_EQ(notes().at(2), "8 Changed: joint 'turn' moves only link 'end', which has no mass; it is fixed at 0");
 }
 
 TEST_F(FromUrdf, NamesThatChangeAreNoted) {
