@@ -103,6 +103,7 @@ class BodyWalk {
   BodyWalk(const UrdfText& urdf, Problems& problems) : urdf_(urdf), problems_(problems) {}
 
   UrdfBodies read() {
+    made_.notes = urdf_.repairs();
     joined_ = joined_joints(urdf_, made_.notes);
     const urdf::Link* const root = first_link();
     open_.push_back({root, add_body(*root), {}});
@@ -127,6 +128,7 @@ class BodyWalk {
   struct Geometry {
     Pose in_link;
     const urdf::Geometry* of;
+    bool capsule;
   };
 
   /// The root, or the link that floats above a root without mass. Adds a note if a root `world` fixes the base.
@@ -197,31 +199,46 @@ class BodyWalk {
     }
     if (joint.mimic != nullptr)
       wrong(joint, fmt::format("mimics {}; every hinge of a module moves independently", in_quotes(joint.mimic->joint_name)));
-    made.hinge.lo = free ? -kNoStop : joint.limits->lower;
-    made.hinge.hi = free ? kNoStop : joint.limits->upper;
+    const bool turns = free || turns_freely(joint);
+    made.hinge.lo = turns ? -kNoStop : joint.limits->lower;
+    made.hinge.hi = turns ? kNoStop : joint.limits->upper;
     read_motor(joint, urdf_, made, problems_);
     made_.hinges.push_back(made);
+  }
+
+  /// True if the range of a joint is no range, with a note.
+  bool turns_freely(const urdf::Joint& joint) {
+    const double lo = joint.limits->lower;
+    const double hi = joint.limits->upper;
+    const bool none = urdf_.lacks_limit(joint.name);
+    if (!none && (lo < hi || (lo == hi && lo != 0))) return false;
+    const std::string what = none ? "has no limit" : fmt::format("has the range {} to {}", number_text(lo), number_text(hi));
+    changed(urdf_.place("joint", joint.name), fmt::format("joint {} {}; it turns freely", in_quotes(joint.name), what));
+    return true;
   }
 
   /// Adds the shapes that the link's collision has, which touch the ground and other bodies; those of its visual if it has no
   /// collision, if only the collision has meshes, or if the collision has points alone, as in our own export.
   void add_shapes(const Placed& at) {
     std::vector<Geometry> seen, touched;
-    for (const urdf::VisualSharedPtr& one : at.link->visual_array) seen.push_back({pose_of(one->origin), one->geometry.get()});
-    for (const urdf::CollisionSharedPtr& one : at.link->collision_array)
-      touched.push_back({pose_of(one->origin), one->geometry.get()});
+    const auto add = [&](std::vector<Geometry>& parts, const auto& array, bool collision) {
+      for (const auto& one : array) {
+        const bool capsule = urdf_.is_capsule(at.link->name, collision, parts.size());
+        parts.push_back({pose_of(one->origin), one->geometry.get(), capsule});
+      }
+    };
+    add(seen, at.link->visual_array, false);
+    add(touched, at.link->collision_array, true);
     const auto meshes = [](const std::vector<Geometry>& parts) {
       return std::ranges::any_of(parts, [](const Geometry& part) { return part.of->type == urdf::Geometry::MESH; });
     };
     const bool drawn = !seen.empty() && !meshes(seen);
     const bool points = std::ranges::all_of(touched, is_point);
     const bool visual = !seen.empty() && (touched.empty() || (drawn && (points || meshes(touched))));
-    const SourceLocation place = urdf_.place("link", at.link->name);
-    const std::string name = in_quotes(at.link->name);
-    if (visual && touched.empty())
-      changed(place, fmt::format("link {} has no collision; its visual shapes are its contact", name));
-    if (visual && !points)
-      changed(place, fmt::format("link {} has meshes as collision; its visual shapes are its contact", name));
+    if (visual && (touched.empty() || !points)) {
+      changed(urdf_.place("link", at.link->name), fmt::format("link {} has {} collision; its visual shapes are its contact",
+                                                              in_quotes(at.link->name), touched.empty() ? "no" : "meshes as"));
+    }
     const std::vector<Shape> shapes = shapes_of(visual ? seen : touched, at);
     if (!visual && !seen.empty() && (!drawn || differ(shapes, shapes_of(seen, at)))) hidden_.push_back(at.link);
     std::vector<Shape>& all = made_.bodies[at.body].shapes;
@@ -243,11 +260,12 @@ class BodyWalk {
   /// Shapes in the frame of the link's body. Adds a problem for each mesh.
   std::vector<Shape> shapes_of(const std::vector<Geometry>& parts, const Placed& at) {
     std::vector<Shape> shapes;
-    for (const Geometry& part : parts) add_shape(at, at.pose * part.in_link, *part.of, shapes);
+    for (const Geometry& part : parts) add_shape(at, at.pose * part.in_link, part, shapes);
     return shapes;
   }
 
-  void add_shape(const Placed& at, const Pose& pose, const urdf::Geometry& geometry, std::vector<Shape>& shapes) {
+  void add_shape(const Placed& at, const Pose& pose, const Geometry& part, std::vector<Shape>& shapes) {
+    const urdf::Geometry& geometry = *part.of;
     Shape shape{.in_body = pose};
     if (geometry.type == urdf::Geometry::BOX) {
       shape.size = vec(static_cast<const urdf::Box&>(geometry).dim);
@@ -259,6 +277,10 @@ class BodyWalk {
       shape.kind = Shape::Kind::cylinder;
       shape.in_body.R = pose.R * y_from_z().transpose();
       shape.size = {cylinder.radius, cylinder.length, 0};
+      for (const double side : {-0.5, 0.5}) {
+        if (part.capsule)
+          shapes.push_back({Shape::Kind::sphere, {pose.R, pose * Vec3(0, 0, side * cylinder.length)}, {cylinder.radius, 0, 0}});
+      }
     } else {
       problems_.add(urdf_.place("link", at.link->name),
                     fmt::format("link {} has the mesh {}; expected box, cylinder or sphere, at least as collision",

@@ -173,6 +173,76 @@ TEST_F(FromUrdf, MotorsAndPassiveHinges) {
                             "7 Not carried over: the name of joint 'x y', which is x_y here"}));
 }
 
+/// Faults that other readers forgive are repaired, each with a note at its line. The rest of a note is the same in each row.
+TEST_F(FromUrdf, ForgivesWhatOthersForgive) {
+  const auto shape = [](const std::string& geometry) { return "<collision><geometry>" + geometry + "</geometry></collision>"; };
+  const std::string box = shape("<box size='1 1 1'/>");
+  const std::string first = "<axis xyz='0 1 0'/>";
+  struct Row {
+    std::string link, joint, note;  ///< content of link b and of the joint from a to b; expected note
+  };
+  const Row rows[] = {
+      {"<visual><geometry><box size='1 1 1'/></geometry><material><color rgba='1 x'/></material></visual>" + box,
+       first + kLimit, "3 Changed: a material has no name"},
+      {shape("<box size='1, 1,1'/>"), first + kLimit, "3 Changed: size=\"1, 1,1\" is read as 1 1 1"},
+      {shape("<box size='1 1 1'/>").insert(11, "<origin xyz='1 2 3 4'/>"), first + kLimit,
+       "3 Changed: xyz=\"1 2 3 4\" is read as 1 2 3"},
+      {box, "<axis xyz='0 1 0'/><limit lower='-1.57.' upper='2' effort='5' velocity='3'/>",
+       "4 Changed: lower=\"-1.57.\" is read as -1.57"},
+      {box, "<limit lower='0' upper='0' effort='5' velocity='3'/>",
+       "4 Changed: joint 'j' has the range 0 to 0; it turns freely"},
+      {box, "<limit lower='2' upper='-1' effort='5' velocity='3'/>",
+       "4 Changed: joint 'j' has the range 2 to -1; it turns freely"},
+      {box, first, "4 Changed: joint 'j' has no limit; it turns freely"},
+      {box, "<limit lower='-1' upper='1' velocity='3'/>",
+       "4 Changed: joint 'j' has no effort of a motor; 3.92 N m at rest is chosen"},
+      {box, "<limit lower='-1' upper='1' effort='3'/>",
+       "4 Changed: joint 'j' has no velocity of a motor; 20 rad/s without load is chosen"},
+      {box, first + "<limit lower='-1 ' upper=' 1' effort='3' velocity='2'/>", ""},
+  };
+  for (const Row& row : rows) {
+    const ModuleType type = read_urdf(urdf_link("a", kInertial + box) + urdf_link("b", kInertial + row.link) +
+                                      urdf_joint("j", "revolute", "a", "b", row.joint));
+    Texts found = notes();
+    std::erase(found, "0 Changed: effort and velocity become the ends of a motor's line");
+    ASSERT_EQ(found.empty(), row.note.empty()) << row.note;
+    if (!found.empty()) EXPECT_EQ(found[0], row.note);
+    EXPECT_EQ(type.bodies.size(), 2U) << row.note;
+    EXPECT_EQ(type.hinges[0].hi == kNoStop, row.note.ends_with("freely")) << row.note;
+    EXPECT_EQ(body_of(type, "b").shapes.at(0).size, Vec3::Ones()) << row.note;
+  }
+  read_urdf("<material name='red'><color rgba='1 0 0 1'/></material>\n<material name='red'/>\n" + urdf_link("a"));
+  EXPECT_EQ(notes(), Texts{"3 Changed: material 'red' is stated twice"});
+}
+
+/// What has two meanings is refused, with urdfdom's message: a decimal comma, a vector of two numbers.
+TEST_F(FromUrdf, DoesNotGuessNumbers) {
+  for (const std::string origin :
+       {"xyz='0,5 1 2'", "xyz='1 2'", "xyz='1,2,3,4'", "xyz='1..0 2 3'", "xyz='1 2 x 3'", "rpy='0,5'"}) {
+    EXPECT_TRUE(contains(
+        refused(urdf_link("a") + urdf_link("b") + urdf_joint("j", "revolute", "a", "b", "<origin " + origin + "/>" + kLimit)),
+        "error: urdfdom: "))
+        << origin;
+  }
+}
+
+/// A capsule is a cylinder with a sphere at each end, which together have its outline.
+TEST_F(FromUrdf, ACapsuleIsACylinderWithTwoSpheres) {
+  const ModuleType type = read_urdf(urdf_link(
+      "a", std::string(kInertial) + "<collision><origin xyz='0 0 1' rpy='1.5707963267948966 0 0'/>"
+                                    "<geometry><capsule radius='0.1' length='0.4'></capsule></geometry></collision>"));
+  const std::vector<Shape>& shapes = type.bodies.at(0).shapes;
+  ASSERT_EQ(shapes.size(), 3U);
+  // z of the capsule is -y of the link, or the other way round; both ends are there.
+  EXPECT_NEAR(std::abs(shapes[0].in_body.p.y()), 0.2, 1e-15);
+  EXPECT_NEAR(shapes[0].in_body.p.y(), -shapes[1].in_body.p.y(), 1e-15);
+  EXPECT_EQ(shapes[0].size.x(), 0.1);
+  EXPECT_EQ(shapes[2].kind, Shape::Kind::cylinder);
+  EXPECT_EQ(shapes[2].size, Vec3(0.1, 0.4, 0));
+  EXPECT_NEAR(std::abs((shapes[2].in_body.R * Vec3::UnitY()).y()), 1, 1e-15);
+  EXPECT_EQ(notes(), Texts{"2 Changed: link 'a' has a capsule, which URDF lacks: a cylinder with a sphere at each end"});
+}
+
 /// Motors of joints without a limit hold twice the weight of all that they move, at its full lever: T = 2 m g L. The stretched
 /// chain has its farthest centre of mass at 0.3 + 0.4 m from the first hinge, at 0.5 m from the second.
 TEST_F(FromUrdf, MotorsAreChosenWithoutALimit) {
@@ -245,8 +315,8 @@ TEST_F(FromUrdf, FaultsOfTheModuleHaveTheirPlace) {
   EXPECT_EQ(refused(urdf_link("a") + urdf_link("b") + joint(std::string("<axis xyz='0 0 0'/>") + kLimit)),
             "r:4:1: error: joint 'j': axis has length 0; expected a direction");
   EXPECT_EQ(refused("<transmission name='t'><joint name='j'/></transmission>\n" + urdf_link("a") + urdf_link("b") +
-                    joint("<limit effort='5' velocity='3'/>")),
-            "r:5:1: error: joint 'j': range is 0 to 0 rad; expected the smaller angle first");
+                    joint("<limit lower='1' upper='1' effort='5' velocity='3'/>")),
+            "r:5:1: error: joint 'j': range is 1 to 1 rad; expected the smaller angle first");
   EXPECT_EQ(refused(urdf_link(
                 "a", "<inertial><mass value='-1'/><inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/></inertial>")),
             "r:2:1: error: link 'a' has mass -1 kg; expected more than 0 (only a link between two hinges may have none)");
