@@ -3,16 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <map>
-#include <numbers>
 #include <set>
 
-#include "core/model/solid.h"
 #include "core/settings/wording.h"
 #include "interchange/robot_xml.h"
 #include "interchange/urdf.h"
 #include "interchange/urdf_joined.h"
+#include "interchange/urdf_mass.h"
 
 namespace gaitlab::interchange {
 
@@ -38,45 +35,7 @@ const char* type_name(int type) {
   }
 }
 
-constexpr double kWater = 1000;  // kg/m^3
-
-/// Mass of a link, in the frame of its body.
-struct UrdfMass {
-  double mass;
-  Vec3 com;
-  Mat3 inertia;
-};
-
-/// Sum of the masses. A single mass is returned unchanged, to the last digit.
-UrdfMass united_mass(const std::vector<UrdfMass>& parts) {
-  if (parts.size() == 1) return parts.front();
-  UrdfMass whole{0, Vec3::Zero(), Mat3::Zero()};
-  for (const UrdfMass& part : parts) {
-    whole.mass += part.mass;
-    whole.com += part.mass * part.com;
-  }
-  if (whole.mass > 0) whole.com /= whole.mass;
-  for (const UrdfMass& part : parts) {
-    const Vec3 d = part.com - whole.com;
-    whole.inertia += part.inertia + part.mass * (d.squaredNorm() * Mat3::Identity() - d * d.transpose());
-  }
-  return whole;
-}
-
 constexpr const char* kFixedBase = "a scenario fixes it with robot: {base: fixed}";
-
-/// Inertia of a body with mass at uniform density: that of its shapes, or without shapes that of a ball of water.
-Mat3 usual_inertia(const BodyType& body) {
-  constexpr double kLeast = 1e-9;  // m; shapes of an absurd size are refused later
-  const auto sound = [](const Shape& shape) {
-    const std::size_t sizes = shape.kind == Shape::Kind::box ? 3 : shape.kind == Shape::Kind::sphere ? 1 : 2;
-    return std::all_of(shape.size.data(), shape.size.data() + sizes, [](double x) { return x > kLeast && x < 1 / kLeast; });
-  };
-  const bool usable = !body.shapes.empty() && body.shapes.size() <= kMostShapes && std::ranges::all_of(body.shapes, sound);
-  if (usable) return united(body.shapes).inertia(body.mass);
-  const double radius = std::cbrt(3 * body.mass / (4 * std::numbers::pi * kWater));
-  return 0.4 * body.mass * radius * radius * Mat3::Identity();
-}
 
 /// Names for the module file from the names in URDF, in the same order. Prefixes such as `m0/` are removed if all names then
 /// still differ, characters that are not allowed become _, and equal names are numbered.
@@ -164,9 +123,11 @@ class BodyWalk {
 
   void read_link(const Placed& at) {
     const urdf::Link& link = *at.link;
-    if (link.inertial != nullptr) add_mass(*link.inertial, at);
+    const std::vector<Shape> shapes = link_shapes(at);
+    if (link.inertial != nullptr) add_mass(*link.inertial, at, shapes);
     if (link.inertial != nullptr && masses_[at.body].size() == 1) made_.bodies[at.body].name = link.name;
-    add_shapes(at);
+    std::vector<Shape>& all = made_.bodies[at.body].shapes;
+    all.insert(all.end(), shapes.begin(), shapes.end());
     std::vector<Placed> next;
     for (const urdf::JointSharedPtr& joint : link.child_joints) {
       const urdf::LinkConstSharedPtr child = urdf_.model().getLink(joint->child_link_name);
@@ -182,12 +143,12 @@ class BodyWalk {
     open_.insert(open_.end(), next.rbegin(), next.rend());  // open_ is a stack, from which the first of `next` is taken first
   }
 
-  void add_mass(const urdf::Inertial& in, const Placed& at) {
+  void add_mass(const urdf::Inertial& in, const Placed& at, const std::vector<Shape>& shapes) {
     const Pose pose = at.pose * pose_of(in.origin);
     Mat3 inertia;
     inertia << in.ixx, in.ixy, in.ixz, in.ixy, in.iyy, in.iyz, in.ixz, in.iyz, in.izz;
     if (!pose.R.isIdentity(0)) inertia = Mat3(pose.R * inertia * pose.R.transpose());
-    masses_[at.body].push_back({in.mass, pose.p, inertia});
+    masses_[at.body].push_back({in.mass, pose.p, in.mass == 0 ? Mat3(Mat3::Zero()) : inertia, at.link->name, shapes});
   }
 
   void add_hinge(const urdf::Joint& joint, std::size_t parent, std::size_t child, const Pose& pose) {
@@ -217,9 +178,9 @@ class BodyWalk {
     return true;
   }
 
-  /// Adds the shapes that the link's collision has, which touch the ground and other bodies; those of its visual if it has no
+  /// Shapes that the link's collision has, which touch the ground and other bodies; those of its visual if it has no
   /// collision, if only the collision has meshes, or if the collision has points alone, as in our own export.
-  void add_shapes(const Placed& at) {
+  std::vector<Shape> link_shapes(const Placed& at) {
     std::vector<Geometry> seen, touched;
     const auto add = [&](std::vector<Geometry>& parts, const auto& array, bool collision) {
       for (const auto& one : array) {
@@ -239,10 +200,9 @@ class BodyWalk {
       changed(urdf_.place("link", at.link->name), fmt::format("link {} has {} collision; its visual shapes are its contact",
                                                               in_quotes(at.link->name), touched.empty() ? "no" : "meshes as"));
     }
-    const std::vector<Shape> shapes = shapes_of(visual ? seen : touched, at);
+    std::vector<Shape> shapes = shapes_of(visual ? seen : touched, at);
     if (!visual && !seen.empty() && (!drawn || differ(shapes, shapes_of(seen, at)))) hidden_.push_back(at.link);
-    std::vector<Shape>& all = made_.bodies[at.body].shapes;
-    all.insert(all.end(), shapes.begin(), shapes.end());
+    return shapes;
   }
 
   /// A point, as our own export writes contact elements without radius.
@@ -300,6 +260,7 @@ class BodyWalk {
     std::vector<std::string> names, joints;
     for (std::size_t b = 0; b < made_.bodies.size(); ++b) {
       BodyType& body = made_.bodies[b];
+      repair_inertias(masses_[b], urdf_, made_.notes);
       const UrdfMass whole = united_mass(masses_[b]);
       body.mass = whole.mass;
       body.com = whole.com;
@@ -338,7 +299,7 @@ class BodyWalk {
   void fix_base(BodyType& root) {
     made_.fixed_base = true;
     root.mass = 1;
-    root.inertia = usual_inertia(root);
+    root.inertia = usual_inertia(root.mass, root.shapes);
     changed(urdf_.place("link", root.name),
             fmt::format("link {} has no mass, and a joint moves the rest: the base is fixed, its mass is 1 kg; {}",
                         in_quotes(root.name), kFixedBase));

@@ -297,12 +297,57 @@ TEST_F(FromUrdf, RefusesInOneList) {
             "r:2:1: error: link 'a' has no mass; expected inertial (only a link between two hinges may have none)");
   EXPECT_EQ(refused(urdf_link("a") + urdf_link("b")),
             "r: error: urdfdom: Failed to find root link: Two root links found: [a] and [b]");
-  EXPECT_EQ(
-      refused(urdf_link("a",
-                        "<inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='4' ixy='0' ixz='0' iyz='0'/>"
-                        "</inertial>")),
-      "r:2:1: error: the inertia of body 'a' is not possible: its principal moments are 1, 1, 4 kg m^2, but the largest must "
-      "not exceed the sum of the other two");
+}
+
+std::string inertial(double mass, const Vec3& moments, const std::string& more = "ixy='0' ixz='0' iyz='0'") {
+  return fmt::format("<inertial><mass value='{}'/><inertia ixx='{}' iyy='{}' izz='{}' {}/></inertial>", mass, moments.x(),
+                     moments.y(), moments.z(), more);
+}
+
+/// Moments 0.01, 0.01, 0.0201 miss the triangle rule by 0.5 % of the largest: the smallest becomes the difference of the
+/// others.
+TEST_F(FromUrdf, ASmallestMomentIsRaised) {
+  const ModuleType type = read_urdf(urdf_link("a", inertial(2, {0.01, 0.01, 0.0201})));
+  EXPECT_NEAR(type.bodies[0].inertia.diagonal().minCoeff(), 0.01, 1e-16);
+  EXPECT_NEAR(type.bodies[0].inertia.trace(), 2 * 0.0201, 1e-16);
+  EXPECT_EQ(notes(),
+            Texts{"2 Changed: no body has the principal moments 0.01, 0.01, 0.0201 kg m^2 of link 'a'; the smallest is "
+                  "raised: 0.01, 0.0101, 0.0201 kg m^2"});
+}
+
+/// Moments 0.0098 about (1, -1, 0), 0.0103 about z and 0.0202 about (1, 1, 0): the first becomes 0.0099, so that xx and yy
+/// become (0.0202 + 0.0099) / 2 and xy (0.0202 - 0.0099) / 2.
+TEST_F(FromUrdf, ARaisedMomentKeepsItsAxes) {
+  const ModuleType type = read_urdf(urdf_link("a", inertial(2, {0.015, 0.015, 0.0103}, "ixy='0.0052' ixz='0' iyz='0'")));
+  const Mat3& I = type.bodies[0].inertia;
+  EXPECT_NEAR(I(0, 0), 0.01505, 1e-16);
+  EXPECT_NEAR(I(1, 1), 0.01505, 1e-16);
+  EXPECT_NEAR(I(2, 2), 0.0103, 1e-16);
+  EXPECT_NEAR(I(0, 1), 0.00515, 1e-16);
+}
+
+/// Inertias beyond that are those of the shapes: m (b^2 + c^2) / 12 of a box; or of a ball of 1000 kg/m^3.
+TEST_F(FromUrdf, ImpossibleInertiasAreThoseOfTheShapes) {
+  const std::string box = "<collision><origin xyz='1 2 3'/><geometry><box size='0.1 0.2 0.3'/></geometry></collision>";
+  for (const Vec3& moments : {Vec3(1, 1, 4), Vec3(0, 0, 0), Vec3(-1, 2, 2), Vec3(0, 1, 1)}) {
+    const BodyType body = read_urdf(urdf_link("a", inertial(6, moments) + box)).bodies[0];
+    EXPECT_EQ(body.mass, 6);
+    EXPECT_EQ(body.com, Vec3::Zero()) << "stated";
+    EXPECT_LT((body.inertia.diagonal() - 0.5 * Vec3(0.04 + 0.09, 0.01 + 0.09, 0.01 + 0.04)).norm(), 1e-15);
+    ASSERT_EQ(notes().size(), 1U);
+    EXPECT_TRUE(contains(notes()[0], "those of its shapes are taken: 0.025, 0.05, 0.065 kg m^2")) << notes()[0];
+  }
+  const BodyType ball = read_urdf(urdf_link("a", inertial(6, Vec3::Zero()))).bodies[0];
+  const double radius = std::cbrt(6 / (4 * std::numbers::pi / 3 * 1000));
+  EXPECT_NEAR(ball.inertia(1, 1), 0.4 * 6 * radius * radius, 1e-15);
+}
+
+/// Only the sum of a body's links must be possible.
+TEST_F(FromUrdf, AFaultThatTheBodyDoesNotHaveIsKept) {
+  const ModuleType type = read_urdf(urdf_link("a", inertial(2, {3, 3, 3})) + urdf_link("b", inertial(1, {1, 1, 3})) +
+                                    urdf_joint("w", "fixed", "a", "b", ""));
+  EXPECT_EQ(Vec3(type.bodies[0].inertia.diagonal()), Vec3(4, 4, 6));
+  EXPECT_EQ(notes(), Texts{});
 }
 
 /// Faults that only the reader of module files finds have the place and the name of their link or joint.
