@@ -59,11 +59,12 @@ std::vector<std::string> allowed_names(const std::vector<std::string>& names) {
 
 class BodyWalk {
  public:
-  BodyWalk(const UrdfText& urdf, Problems& problems) : urdf_(urdf), problems_(problems) {}
+  BodyWalk(const UrdfText& urdf, const std::vector<std::string>& locked, Problems& problems)
+      : urdf_(urdf), locked_(locked), problems_(problems) {}
 
   UrdfBodies read() {
     made_.notes = urdf_.repairs();
-    joined_ = joined_joints(urdf_, made_.notes);
+    joined_ = joined_joints(urdf_, locked_, made_.notes, problems_);
     const urdf::Link* const root = first_link();
     open_.push_back({root, add_body(*root), {}});
     while (!open_.empty()) {
@@ -117,10 +118,6 @@ class BodyWalk {
   void left_out(const SourceLocation& place, const std::string& text) { made_.notes.push_back({place, text, false}); }
   void changed(const SourceLocation& place, const std::string& text) { made_.notes.push_back({place, text, true}); }
 
-  void wrong(const urdf::Joint& joint, const std::string& what) {
-    problems_.add(urdf_.place("joint", joint.name), "joint " + in_quotes(joint.name) + " " + what);
-  }
-
   void read_link(const Placed& at) {
     const urdf::Link& link = *at.link;
     const std::vector<Shape> shapes = link_shapes(at);
@@ -156,15 +153,40 @@ class BodyWalk {
     made.hinge = {joint.name, parent, child, pose, vec(joint.axis)};
     const bool free = joint.type == urdf::Joint::CONTINUOUS;
     if (!free && joint.type != urdf::Joint::REVOLUTE) {
-      return wrong(joint, fmt::format("is {}; a module has revolute, continuous and fixed joints", type_name(joint.type)));
+      refused_.push_back(&joint);
+      return;
     }
-    if (joint.mimic != nullptr)
-      wrong(joint, fmt::format("mimics {}; every hinge of a module moves independently", in_quotes(joint.mimic->joint_name)));
+    if (joint.mimic != nullptr) {
+      changed(urdf_.place("joint", joint.name),
+              fmt::format("joint {} mimics {}; it moves independently, or is fixed by {}", in_quotes(joint.name),
+                          in_quotes(joint.mimic->joint_name), lock_option({&joint})));
+    }
     const bool turns = free || turns_freely(joint);
     made.hinge.lo = turns ? -kNoStop : joint.limits->lower;
     made.hinge.hi = turns ? kNoStop : joint.limits->upper;
     read_motor(joint, urdf_, made, problems_);
     made_.hinges.push_back(made);
+  }
+
+  /// The option of the command that fixes joints.
+  static std::string lock_option(const std::vector<const urdf::Joint*>& joints) {
+    std::string text;
+    for (const urdf::Joint* const joint : joints) text += fmt::format("{}--lock \"{}\"", text.empty() ? "" : " ", joint->name);
+    return text;
+  }
+
+  /// Reports the joints that are no hinges, in the order of the file. The first message has the option that fixes all of them.
+  void refuse_joints() {
+    std::vector<std::pair<SourceLocation, const urdf::Joint*>> placed;
+    for (const urdf::Joint* const joint : refused_) placed.emplace_back(urdf_.place("joint", joint->name), joint);
+    std::ranges::stable_sort(placed, {}, [](const auto& one) { return std::pair(one.first.line, one.first.column); });
+    for (std::size_t i = 0; i < placed.size(); ++i) refused_[i] = placed[i].second;
+    const std::string all =
+        fmt::format("; {} fixed at 0 by {}", placed.size() == 1 ? "it is" : "they are", lock_option(refused_));
+    for (const auto& [place, joint] : placed) {
+      problems_.add(place, fmt::format("joint {} is {}; a module has hinges{}", in_quotes(joint->name), type_name(joint->type),
+                                       joint == refused_.front() ? all : ""));
+    }
   }
 
   /// True if the range of a joint is no range, with a note.
@@ -252,6 +274,7 @@ class BodyWalk {
 
   /// Sums the masses, reports bodies without mass, and makes names that a module file allows.
   void finish() {
+    refuse_joints();
     std::vector<bool> inner(made_.bodies.size(), false), moved(made_.bodies.size(), false);
     for (const UrdfHinge& one : made_.hinges) {
       inner[one.hinge.parent] = true;
@@ -315,18 +338,20 @@ class BodyWalk {
   }
 
   const UrdfText& urdf_;
+  const std::vector<std::string>& locked_;
   Problems& problems_;
   UrdfBodies made_;
   std::vector<std::vector<UrdfMass>> masses_;  ///< of the links of each body
   std::vector<Placed> open_;                   ///< links to read
   std::set<const urdf::Joint*> joined_;        ///< joints whose links are one body
+  std::vector<const urdf::Joint*> refused_;    ///< joints that are no hinges and are not joined
   std::vector<const urdf::Link*> hidden_;      ///< links whose visual differs from their collision
 };
 
 }  // namespace
 
-UrdfBodies urdf_bodies(const UrdfText& urdf, Problems& problems) {
-  UrdfBodies made = BodyWalk(urdf, problems).read();
+UrdfBodies urdf_bodies(const UrdfText& urdf, const std::vector<std::string>& locked, Problems& problems) {
+  UrdfBodies made = BodyWalk(urdf, locked, problems).read();
   for (const char* tag : {"transmission", "gazebo", "sensor"}) {
     if (const std::size_t number = urdf.count(tag); number > 0)
       made.notes.push_back({urdf.place(), fmt::format("{} of <{}>", counted(number, "element"), tag)});

@@ -19,6 +19,7 @@ struct UrdfBodies {
 };
 
 /// Adds a problem for everything that a module cannot contain; the bodies and hinges are then not valid.
-UrdfBodies urdf_bodies(const UrdfText& urdf, Problems& problems);
+/// `locked` as in module_of_urdf.
+UrdfBodies urdf_bodies(const UrdfText& urdf, const std::vector<std::string>& locked, Problems& problems);
 
 }  // namespace gaitlab::interchange

@@ -176,10 +176,10 @@ Problem at_urdf(const Problem& problem, const ModuleText& made, const UrdfText& 
 
 }  // namespace
 
-UrdfModule module_of_urdf(const std::string& file, const std::string& name) {
+UrdfModule module_of_urdf(const std::string& file, const std::string& name, const std::vector<std::string>& locked) {
   const UrdfText urdf(file);
   Problems problems;
-  const UrdfBodies parts = urdf_bodies(urdf, problems);
+  const UrdfBodies parts = urdf_bodies(urdf, locked, problems);
   raise_by_line(problems);
   ModuleText made = module_text(parts, name, file);
   // The reader of module files checks what URDF permits: impossible inertias, axes of length 0, sizes of 0.

@@ -18,6 +18,7 @@ struct UrdfModule {
 /// collision are its shapes, or those of its visual if it has no collision. A joint's effort and velocity are torque at rest
 /// and no-load speed of its servo; effort 0 means a hinge without a motor. Numbers are written as the shortest texts that are
 /// read back as the same doubles. Throws InputError with a problem, at its line, for everything that a module cannot contain.
-UrdfModule module_of_urdf(const std::string& file, const std::string& name);
+/// Joints whose names match a name or pattern of `locked` are fixed at 0.
+UrdfModule module_of_urdf(const std::string& file, const std::string& name, const std::vector<std::string>& locked = {});
 
 }  // namespace gaitlab::interchange

@@ -42,7 +42,7 @@ std::string urdf_joint(const std::string& name, const std::string& type, const s
 class FromUrdf : public ::testing::Test {
  protected:
   ModuleType read_urdf(const std::string& content) {
-    made_ = module_of_urdf(folder_.write("r.urdf", "<robot name='r'>\n" + content + "</robot>\n"), "made");
+    made_ = module_of_urdf(folder_.write("r.urdf", "<robot name='r'>\n" + content + "</robot>\n"), "made", locked_);
     return module_in(made_);
   }
   std::string refused(const std::string& content) {
@@ -57,6 +57,7 @@ class FromUrdf : public ::testing::Test {
     for (const UrdfNote& note : made_.notes) texts.push_back(fmt::format("{} {}: {}", note.place.line, note.kind(), note.text));
     return texts;
   }
+  std::vector<std::string> locked_;  ///< names and patterns of joints to be fixed
   UrdfModule made_;
   Folder folder_;
 };
@@ -282,21 +283,49 @@ TEST_F(FromUrdf, AWheelWithoutALimit) {
 /// One message lists everything that a module cannot contain, in the order of the file.
 TEST_F(FromUrdf, RefusesInOneList) {
   const std::string mesh = "<visual><geometry><mesh filename='a.stl'/></geometry></visual>";
-  const std::string others = " a module has revolute, continuous and fixed joints\n";
-  EXPECT_EQ(refused(urdf_link("a", kInertial + mesh) + urdf_link("b") + urdf_link("c") + urdf_link("d") + urdf_link("e") +
-                    urdf_joint("ab", "prismatic", "a", "b", kLimit) + urdf_joint("ac", "floating", "a", "c", "") +
-                    urdf_joint("ad", "planar", "a", "d", "") +
-                    urdf_joint("ae", "revolute", "a", "e", "<mimic joint='ad'/><limit effort='-1' velocity='-2'/>")),
-            "r:2:1: error: link 'a' has the mesh 'a.stl'; expected box, cylinder or sphere, at least as collision\n"
-            "r:7:1: error: joint 'ab' is prismatic;" +
-                others + "r:8:1: error: joint 'ac' is floating;" + others + "r:9:1: error: joint 'ad' is planar;" + others +
-                "r:10:1: error: joint 'ae' mimics 'ad'; every hinge of a module moves independently\n"
-                "r:10:1: error: joint 'ae' has effort -1; expected the torque at rest, N m, of its motor, not negative\n"
-                "r:10:1: error: joint 'ae' has velocity -2; expected the no-load speed, rad/s, of its motor, not negative");
+  EXPECT_EQ(
+      refused(urdf_link("a", kInertial + mesh) + urdf_link("b") + urdf_link("c") + urdf_link("d") + urdf_link("e") +
+              urdf_joint("ad", "prismatic", "a", "d", kLimit) + urdf_joint("ac", "floating", "a", "c", "") +
+              urdf_joint("ab", "planar", "a", "b", "") +
+              urdf_joint("ae", "revolute", "a", "e", "<limit lower='-1' upper='1' effort='-1' velocity='-2'/>")),
+      "r:2:1: error: link 'a' has the mesh 'a.stl'; expected box, cylinder or sphere, at least as collision\n"
+      "r:7:1: error: joint 'ad' is prismatic; a module has hinges; they are fixed at 0 by --lock \"ad\" --lock \"ac\" --lock "
+      "\"ab\"\n"
+      "r:8:1: error: joint 'ac' is floating; a module has hinges\n"
+      "r:9:1: error: joint 'ab' is planar; a module has hinges\n"
+      "r:10:1: error: joint 'ae' has effort -1; expected the torque at rest, N m, of its motor, not negative\n"
+      "r:10:1: error: joint 'ae' has velocity -2; expected the no-load speed, rad/s, of its motor, not negative");
   EXPECT_EQ(refused(urdf_link("a", "")),
             "r:2:1: error: link 'a' has no mass; expected inertial (only a link between two hinges may have none)");
   EXPECT_EQ(refused(urdf_link("a") + urdf_link("b")),
             "r: error: urdfdom: Failed to find root link: Two root links found: [a] and [b]");
+}
+
+/// Joints that mimic others are hinges of their own; --lock fixes them, and those that are no hinges, at 0. The finger of 2 kg
+/// is then part of the hand, 1 m beyond its origin: m_1 m_2 / (m_1 + m_2) d^2 across.
+TEST_F(FromUrdf, LockedJointsAreFixed) {
+  const std::string robot =
+      urdf_link("arm") + urdf_link("hand") + urdf_link("finger_l") + urdf_link("finger_r") +
+      urdf_joint("wrist", "revolute", "arm", "hand", kLimit) +
+      urdf_joint("finger_1", "prismatic", "hand", "finger_l", "<origin xyz='0 0 1'/><axis xyz='0 1 0'/>") +
+      urdf_joint("finger_2", "revolute", "hand", "finger_r",
+                 "<mimic joint='wrist'/><limit lower='-1' upper='1' effort='1' velocity='1'/>");
+  EXPECT_EQ(refused(robot),
+            "r:7:1: error: joint 'finger_1' is prismatic; a module has hinges; it is fixed at 0 by --lock \"finger_1\"");
+  locked_ = {"finger_1"};
+  const ModuleType one = read_urdf(robot);
+  EXPECT_EQ(one.hinges.size(), 2U);
+  EXPECT_EQ(body_of(one, "hand").mass, 4);
+  EXPECT_NEAR(body_of(one, "hand").com.z(), 0.5, 1e-16);
+  EXPECT_NEAR(body_of(one, "hand").inertia(0, 0), 0.01 + 0.01 + 2.0 * 2 / 4 * 1, 1e-15);
+  EXPECT_EQ(notes(), (Texts{"0 Changed: effort and velocity become the ends of a motor's line",
+                            "7 Changed: joint 'finger_1' is fixed at 0, as --lock asks",
+                            "8 Changed: joint 'finger_2' mimics 'wrist'; it moves independently, or is fixed by --lock "
+                            "\"finger_2\""}));
+  locked_ = {"finger*"};
+  EXPECT_EQ(read_urdf(robot).hinges.size(), 1U);
+  locked_ = {"wrists"};
+  EXPECT_TRUE(contains(refused(robot), "--lock: error: no joint 'wrists'; did you mean 'wrist'?")) << refused(robot);
 }
 
 std::string inertial(double mass, const Vec3& moments, const std::string& more = "ixy='0' ixz='0' iyz='0'") {
