@@ -18,7 +18,7 @@ namespace {
 std::vector<const urdf::Link*> links_outwards(const urdf::ModelInterface& model) {
   std::vector<const urdf::Link*> links{model.getRoot().get()};
   for (std::size_t i = 0; i < links.size(); ++i) {
-    for (const urdf::LinkSharedPtr& child : std::vector(links[i]->child_links)) links.push_back(child.get());
+    for (const urdf::LinkSharedPtr& child : links[i]->child_links) links.push_back(child.get());
   }
   return links;
 }

@@ -6,11 +6,13 @@
 
 #include <algorithm>
 #include <exception>
+#include <map>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "core/settings/text_file.h"
+#include "core/settings/wording.h"
 
 namespace gaitlab::interchange {
 
@@ -124,6 +126,20 @@ UrdfText::UrdfText(const std::string& file) : file_(file), text_(read_text(file)
   if (model_ == nullptr || model_->getRoot() == nullptr) {
     throw InputError(SourceLocation{file}, "has no robot; expected a URDF file with an element <robot>");
   }
+  check_tree();
+}
+
+void UrdfText::check_tree() const {
+  std::map<std::string, std::string> parent_of;  // joint that moves the link
+  Problems problems;
+  for (const auto& [name, joint] : model_->joints_) {
+    const auto [first, fresh] = parent_of.emplace(joint->child_link_name, name);
+    if (fresh) continue;
+    problems.add(place("joint", name),
+                 fmt::format("link {} is the child of joints {} and {}; expected one tree", in_quotes(joint->child_link_name),
+                             in_quotes(first->second), in_quotes(name)));
+  }
+  problems.raise();
 }
 
 std::vector<UrdfNote> UrdfText::repairs() const {

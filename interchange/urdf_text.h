@@ -39,6 +39,9 @@ class UrdfText {
   [[nodiscard]] std::size_t find(const std::string& tag, std::size_t from) const;
 
   [[nodiscard]] SourceLocation place_of(std::size_t offset) const;
+  /// Throws InputError if a link is the child of two joints. urdfdom accepts it, and the paths to such links are as many as 2
+  /// to the power of their number.
+  void check_tree() const;
   /// Place of the link or joint that one of urdfdom's messages names; the file if the message names neither.
   [[nodiscard]] SourceLocation place_in(const std::vector<std::string>& messages) const;
 

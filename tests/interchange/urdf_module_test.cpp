@@ -488,6 +488,17 @@ TEST_F(FromUrdf, RefusesElementsWithManyAttributes) {
   EXPECT_EQ(refused("<link name='a'" + attributes(60000) + "/>\n"), kRefused);
 }
 
+/// A chain of 40 links, each with two joints to the next, would have 2^40 paths, each with the mass of its links.
+TEST_F(FromUrdf, RefusesALinkWithTwoParents) {
+  std::string chain = urdf_link("l0");
+  for (int k = 0; k < 40; ++k) {
+    chain += urdf_link(fmt::format("l{}", k + 1));
+    for (const char* const name : {"a", "b"})
+      chain += urdf_joint(fmt::format("{}{}", name, k), "fixed", fmt::format("l{}", k), fmt::format("l{}", k + 1), "");
+  }
+  EXPECT_TRUE(contains(refused(chain), "r:5:1: error: link 'l1' is the child of joints 'a0' and 'b0'; expected one tree\n"));
+}
+
 /// These elements are nested so deeply that the parser's stack would overflow.
 TEST_F(FromUrdf, RefusesADeepFile) {
   std::string deep;
