@@ -175,7 +175,8 @@ class BodyWalk {
     return text;
   }
 
-  /// Reports the joints that are no hinges, in the order of the file. The first message has the option that fixes all of them.
+  /// Reports the joints that cannot be hinges, in the order of the file. The first message has the option that fixes all of
+  /// them.
   void refuse_joints() {
     std::vector<std::pair<SourceLocation, const urdf::Joint*>> placed;
     for (const urdf::Joint* const joint : refused_) placed.emplace_back(urdf_.place("joint", joint->name), joint);
@@ -189,7 +190,7 @@ class BodyWalk {
     }
   }
 
-  /// True if the range of a joint is no range, with a note.
+  /// True if a joint is without a range, or has an impossible one; adds a note.
   bool turns_freely(const urdf::Joint& joint) {
     const double lo = joint.limits->lower;
     const double hi = joint.limits->upper;
@@ -344,7 +345,7 @@ class BodyWalk {
   std::vector<std::vector<UrdfMass>> masses_;  ///< of the links of each body
   std::vector<Placed> open_;                   ///< links to read
   std::set<const urdf::Joint*> joined_;        ///< joints whose links are one body
-  std::vector<const urdf::Joint*> refused_;    ///< joints that are no hinges and are not joined
+  std::vector<const urdf::Joint*> refused_;    ///< joints that cannot be hinges and are not joined
   std::vector<const urdf::Link*> hidden_;      ///< links whose visual differs from their collision
 };
 

@@ -10,7 +10,7 @@
 namespace gaitlab::interchange {
 
 /// The joints whose child is joined to its parent at position 0: fixed ones, those whose name matches a name or pattern of
-/// `locked`, and those that move nothing but links without mass, such as the frame at the tip of an arm. Adds a note for each
+/// `locked`, and those that move only links without mass, such as the frame at the tip of an arm. Adds a note for each
 /// that moves in the file, and a problem for each of `locked` that matches none.
 std::set<const urdf::Joint*> joined_joints(const UrdfText& urdf, const std::vector<std::string>& locked,
                                            std::vector<UrdfNote>& notes, Problems& problems);

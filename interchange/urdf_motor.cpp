@@ -18,7 +18,8 @@ constexpr double kChosenSpeed = 20;  // rad/s
 constexpr double kChosenShare = 2;   // of the weight that the motor holds
 constexpr double kStandard = 9.81;   // m/s^2
 
-/// What a hinge moves: mass, and the longest distance from its origin to a centre of mass, or radius of gyration.
+/// Load of a hinge: mass of all that it moves, and the longest distance from its origin to a centre of mass, or radius of
+/// gyration.
 struct Carried {
   double mass = 0, lever = 0;
 };

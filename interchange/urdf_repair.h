@@ -29,7 +29,7 @@ inline constexpr double kNoEffort = 1e9;  ///< N m, in `text` in the place of a 
 /// - `<capsule radius length>`, which URDF lacks, becomes a cylinder that is listed;
 /// - a number may end in a second point (`-1.57.`), a vector may have commas between its numbers, and 4 numbers for 3;
 /// - a joint with a range may lack `limit`, or its effort or velocity.
-/// What cannot be repaired without a guess, such as `0,5` for one number, is left as it is. `text` is the file, and
+/// A value that needs a guess, such as `0,5` for one number, is left as it is. `text` is the file, and
 /// `without_comments` is the same with blanks in the place of comments.
 UrdfRepair repaired_urdf(std::string_view text, std::string_view without_comments);
 

@@ -137,7 +137,7 @@ TEST_F(FromUrdf, RefusesInOneList) {
             "r: error: urdfdom: Failed to find root link: Two root links found: [a] and [b]");
 }
 
-/// Joints that mimic others are hinges of their own; --lock fixes them, and those that are no hinges, at 0. The finger of 2 kg
+/// Joints that mimic others are hinges of their own; --lock fixes them, and those that slide, at 0. The finger of 2 kg
 /// Moments 0.01, 0.01, 0.0201 miss the triangle rule by 0.5 % of the largest: the smallest becomes the difference of the
 /// Moments 0.0098 about (1, -1, 0), 0.0103 about z and 0.0202 about (1, 1, 0): the first becomes 0.0099, so that xx and yy
 /// Faults that only the reader of module files finds have the place and the name of their link or joint.

@@ -53,7 +53,7 @@ TEST_F(FromUrdf, ForgivesWhatOthersForgive) {
   EXPECT_EQ(notes(), Texts{"3 Changed: material 'red' is stated twice"});
 }
 
-/// What has two meanings is refused, with urdfdom's message: a decimal comma, a vector of two numbers.
+/// Numbers with two meanings are refused, with urdfdom's message: a decimal comma, a vector of two numbers.
 TEST_F(FromUrdf, DoesNotGuessNumbers) {
   for (const std::string origin :
        {"xyz='0,5 1 2'", "xyz='1 2'", "xyz='1,2,3,4'", "xyz='1..0 2 3'", "xyz='1 2 x 3'", "rpy='0,5'"}) {
@@ -233,7 +233,7 @@ TEST_F(FromUrdf, CollisionReplacesMeshes) {
   EXPECT_EQ(notes(), (Texts{"2 Not carried over: the visual shapes of link 'a'; those of collision are drawn and touch"}));
 }
 
-/// What touches is the collision, not what is drawn: a sphere of 0.02 m within a drawn one of 0.10 m.
+/// The collision touches, not the visual: a sphere of 0.02 m within a drawn one of 0.10 m.
 TEST_F(FromUrdf, CollisionIsTheContact) {
   const ModuleType type = module_in(made_ = module_of_urdf(kImports + "visual_is_not_contact.urdf", "ball"));
   ASSERT_EQ(body_of(type, "body").shapes.size(), 1U);
