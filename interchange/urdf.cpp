@@ -13,8 +13,6 @@ namespace {
 
 using namespace interchange;
 
-constexpr double kPointRadius = 0.001;  // m, radius with which a point is written
-
 void add_origin(Xml& element, const Pose& pose) {
   Xml& e = add(element, "origin");
   set(e, "xyz", text(pose.p));

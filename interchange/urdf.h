@@ -6,7 +6,8 @@
 
 namespace gaitlab::interchange {
 
-inline constexpr double kUnlimited = 1e6;  ///< N m and rad/s; means no limit, because the format requires a number
+inline constexpr double kUnlimited = 1e6;      ///< N m and rad/s; means no limit, because the format requires a number
+inline constexpr double kPointRadius = 0.001;  ///< m, radius of a contact element that is a point
 
 /// URDF text of the robot, with one link of the same name for each body. A hinge is a revolute joint whose limits are its
 /// range, the motor's torque at rest and its no-load speed. Docked bodies are connected by fixed joints such as `m3/dock`. The

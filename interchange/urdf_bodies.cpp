@@ -3,12 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 #include <set>
 
 #include "core/settings/wording.h"
 #include "interchange/robot_xml.h"
 #include "interchange/urdf.h"
+#include "interchange/urdf_joined.h"
+#include "interchange/urdf_mass.h"
 
 namespace gaitlab::interchange {
 
@@ -34,28 +35,7 @@ const char* type_name(int type) {
   }
 }
 
-/// Mass of a link, in the frame of its body.
-struct UrdfMass {
-  double mass;
-  Vec3 com;
-  Mat3 inertia;
-};
-
-/// Sum of the masses. A single mass is returned unchanged, to the last digit.
-UrdfMass united_mass(const std::vector<UrdfMass>& parts) {
-  if (parts.size() == 1) return parts.front();
-  UrdfMass whole{0, Vec3::Zero(), Mat3::Zero()};
-  for (const UrdfMass& part : parts) {
-    whole.mass += part.mass;
-    whole.com += part.mass * part.com;
-  }
-  if (whole.mass > 0) whole.com /= whole.mass;
-  for (const UrdfMass& part : parts) {
-    const Vec3 d = part.com - whole.com;
-    whole.inertia += part.inertia + part.mass * (d.squaredNorm() * Mat3::Identity() - d * d.transpose());
-  }
-  return whole;
-}
+constexpr const char* kFixedBase = "a scenario fixes it with robot: {base: fixed}";
 
 /// Names for the module file from the names in URDF, in the same order. Prefixes such as `m0/` are removed if all names then
 /// still differ, characters that are not allowed become _, and equal names are numbered.
@@ -79,9 +59,12 @@ std::vector<std::string> allowed_names(const std::vector<std::string>& names) {
 
 class BodyWalk {
  public:
-  BodyWalk(const UrdfText& urdf, Problems& problems) : urdf_(urdf), problems_(problems) {}
+  BodyWalk(const UrdfText& urdf, const std::vector<std::string>& locked, Problems& problems)
+      : urdf_(urdf), locked_(locked), problems_(problems) {}
 
   UrdfBodies read() {
+    made_.notes = urdf_.repairs();
+    joined_ = joined_joints(urdf_, locked_, made_.notes, problems_);
     const urdf::Link* const root = first_link();
     open_.push_back({root, add_body(*root), {}});
     while (!open_.empty()) {
@@ -101,18 +84,28 @@ class BodyWalk {
     Pose pose;
   };
 
+  /// A part of a link's visual or collision.
+  struct Geometry {
+    Pose in_link;
+    const urdf::Geometry* of;
+    bool capsule;
+  };
+
   /// The root, or the link that floats above a root without mass. Adds a note if a root `world` fixes the base.
   const urdf::Link* first_link() {
     const urdf::Link* const root = urdf_.model().getRoot().get();
     if (root->inertial != nullptr || root->child_joints.size() != 1) return root;
     const urdf::Joint& joint = *root->child_joints.front();
     if (joint.type == urdf::Joint::FLOATING) {
-      made_.notes.push_back(fmt::format("link {} and floating joint {}: the base of a scenario floats by default",
-                                        in_quotes(root->name), in_quotes(joint.name)));
+      left_out(urdf_.place("link", root->name),
+               fmt::format("link {} and floating joint {}: the base of a scenario floats by default", in_quotes(root->name),
+                           in_quotes(joint.name)));
       return urdf_.model().getLink(joint.child_link_name).get();
     }
-    if (joint.type == urdf::Joint::FIXED && root->name == "world")
-      made_.notes.push_back("the fixed base of link 'world'; a scenario fixes the base with robot: {base: fixed}");
+    if (joint.type == urdf::Joint::FIXED && root->name == "world") {
+      made_.fixed_base = true;
+      left_out(urdf_.place("joint", joint.name), fmt::format("the fixed base of link 'world'; {}", kFixedBase));
+    }
     return root;
   }
 
@@ -122,20 +115,21 @@ class BodyWalk {
     return made_.bodies.size() - 1;
   }
 
-  void wrong(const urdf::Joint& joint, const std::string& what) {
-    problems_.add(urdf_.place("joint", joint.name), "joint " + in_quotes(joint.name) + " " + what);
-  }
+  void left_out(const SourceLocation& place, const std::string& text) { made_.notes.push_back({place, text, false}); }
+  void changed(const SourceLocation& place, const std::string& text) { made_.notes.push_back({place, text, true}); }
 
   void read_link(const Placed& at) {
     const urdf::Link& link = *at.link;
-    if (link.inertial != nullptr) add_mass(*link.inertial, at);
+    const std::vector<Shape> shapes = link_shapes(at);
+    if (link.inertial != nullptr) add_mass(*link.inertial, at, shapes);
     if (link.inertial != nullptr && masses_[at.body].size() == 1) made_.bodies[at.body].name = link.name;
-    add_shapes(at);
+    std::vector<Shape>& all = made_.bodies[at.body].shapes;
+    all.insert(all.end(), shapes.begin(), shapes.end());
     std::vector<Placed> next;
     for (const urdf::JointSharedPtr& joint : link.child_joints) {
       const urdf::LinkConstSharedPtr child = urdf_.model().getLink(joint->child_link_name);
       const Pose pose = at.pose * pose_of(joint->parent_to_joint_origin_transform);
-      if (joint->type == urdf::Joint::FIXED) {
+      if (joined_.contains(joint.get())) {
         next.push_back({child.get(), at.body, pose});
         continue;
       }
@@ -146,12 +140,12 @@ class BodyWalk {
     open_.insert(open_.end(), next.rbegin(), next.rend());  // open_ is a stack, from which the first of `next` is taken first
   }
 
-  void add_mass(const urdf::Inertial& in, const Placed& at) {
+  void add_mass(const urdf::Inertial& in, const Placed& at, const std::vector<Shape>& shapes) {
     const Pose pose = at.pose * pose_of(in.origin);
     Mat3 inertia;
     inertia << in.ixx, in.ixy, in.ixz, in.ixy, in.iyy, in.iyz, in.ixz, in.iyz, in.izz;
     if (!pose.R.isIdentity(0)) inertia = Mat3(pose.R * inertia * pose.R.transpose());
-    masses_[at.body].push_back({in.mass, pose.p, inertia});
+    masses_[at.body].push_back({in.mass, pose.p, in.mass == 0 ? Mat3(Mat3::Zero()) : inertia, at.link->name, shapes});
   }
 
   void add_hinge(const urdf::Joint& joint, std::size_t parent, std::size_t child, const Pose& pose) {
@@ -159,54 +153,102 @@ class BodyWalk {
     made.hinge = {joint.name, parent, child, pose, vec(joint.axis)};
     const bool free = joint.type == urdf::Joint::CONTINUOUS;
     if (!free && joint.type != urdf::Joint::REVOLUTE) {
-      return wrong(joint, fmt::format("is {}; a module has revolute, continuous and fixed joints", type_name(joint.type)));
+      refused_.push_back(&joint);
+      return;
     }
-    if (joint.mimic != nullptr)
-      wrong(joint, fmt::format("mimics {}; every hinge of a module moves independently", in_quotes(joint.mimic->joint_name)));
-    made.hinge.lo = free ? -kNoStop : joint.limits->lower;
-    made.hinge.hi = free ? kNoStop : joint.limits->upper;
-    add_motor(joint, made);
+    if (joint.mimic != nullptr) {
+      changed(urdf_.place("joint", joint.name),
+              fmt::format("joint {} mimics {}; it moves independently, or is fixed by {}", in_quotes(joint.name),
+                          in_quotes(joint.mimic->joint_name), lock_option({&joint})));
+    }
+    const bool turns = free || turns_freely(joint);
+    made.hinge.lo = turns ? -kNoStop : joint.limits->lower;
+    made.hinge.hi = turns ? kNoStop : joint.limits->upper;
+    read_motor(joint, urdf_, made, problems_);
     made_.hinges.push_back(made);
   }
 
-  void add_motor(const urdf::Joint& joint, UrdfHinge& made) {
-    const urdf::JointDynamics none{};
-    const urdf::JointDynamics& dynamics = joint.dynamics == nullptr ? none : *joint.dynamics;
-    if (joint.limits == nullptr) {
-      return wrong(joint, "has no limit; expected effort and velocity of its motor, or effort 0 for a joint without a motor");
-    }
-    if (joint.limits->effort == 0) {
-      made.hinge.passive = Passive{.damping = dynamics.damping, .friction = dynamics.friction};
-      return;
-    }
-    made.effort = joint.limits->effort;
-    made.speed = joint.limits->velocity;
-    const auto check = [&](const char* key, double value, const char* what) {
-      if (value > 0 && value < kUnlimited) return;
-      wrong(joint, fmt::format("has {} {}; expected {} of its motor, above 0 and below {}", key, number_text(value), what,
-                               number_text(kUnlimited)));
-    };
-    check("effort", made.effort, "the torque at rest, N m,");
-    check("velocity", made.speed, "the no-load speed, rad/s,");
-    made.dry = dynamics.friction;
-    made.viscous = dynamics.damping;
+  /// The option of the command that fixes joints.
+  static std::string lock_option(const std::vector<const urdf::Joint*>& joints) {
+    std::string text;
+    for (const urdf::Joint* const joint : joints) text += fmt::format("{}--lock \"{}\"", text.empty() ? "" : " ", joint->name);
+    return text;
   }
 
-  void add_shapes(const Placed& at) {
-    std::vector<std::pair<Pose, urdf::GeometrySharedPtr>> seen, touched;
-    for (const urdf::VisualSharedPtr& one : at.link->visual_array) seen.emplace_back(pose_of(one->origin), one->geometry);
-    for (const urdf::CollisionSharedPtr& one : at.link->collision_array)
-      touched.emplace_back(pose_of(one->origin), one->geometry);
-    const auto meshes = [](const auto& parts) {
-      return std::ranges::any_of(parts, [](const auto& part) { return part.second->type == urdf::Geometry::MESH; });
-    };
-    const bool drawn = !seen.empty() && (!meshes(seen) || touched.empty());
-    if (!drawn && !seen.empty() && !meshes(touched))
-      made_.notes.push_back("meshes of link " + in_quotes(at.link->name) + "; its collision shapes are used");
-    for (const auto& [pose, geometry] : drawn ? seen : touched) add_shape(at, at.pose * pose, *geometry);
+  /// Reports the joints that cannot be hinges, in the order of the file. The first message has the option that fixes all of
+  /// them.
+  void refuse_joints() {
+    std::vector<std::pair<SourceLocation, const urdf::Joint*>> placed;
+    for (const urdf::Joint* const joint : refused_) placed.emplace_back(urdf_.place("joint", joint->name), joint);
+    std::ranges::stable_sort(placed, {}, [](const auto& one) { return std::pair(one.first.line, one.first.column); });
+    for (std::size_t i = 0; i < placed.size(); ++i) refused_[i] = placed[i].second;
+    const std::string all =
+        fmt::format("; {} fixed at 0 by {}", placed.size() == 1 ? "it is" : "they are", lock_option(refused_));
+    for (const auto& [place, joint] : placed) {
+      problems_.add(place, fmt::format("joint {} is {}; a module has hinges{}", in_quotes(joint->name), type_name(joint->type),
+                                       joint == refused_.front() ? all : ""));
+    }
   }
 
-  void add_shape(const Placed& at, const Pose& pose, const urdf::Geometry& geometry) {
+  /// True if a joint is without a range, or has an impossible one; adds a note.
+  bool turns_freely(const urdf::Joint& joint) {
+    const double lo = joint.limits->lower;
+    const double hi = joint.limits->upper;
+    const bool none = urdf_.lacks_limit(joint.name);
+    if (!none && (lo < hi || (lo == hi && lo != 0))) return false;
+    const std::string what = none ? "has no limit" : fmt::format("has the range {} to {}", number_text(lo), number_text(hi));
+    changed(urdf_.place("joint", joint.name), fmt::format("joint {} {}; it turns freely", in_quotes(joint.name), what));
+    return true;
+  }
+
+  /// Shapes that the link's collision has, which touch the ground and other bodies; those of its visual if it has no
+  /// collision, if only the collision has meshes, or if the collision has points alone, as in our own export.
+  std::vector<Shape> link_shapes(const Placed& at) {
+    std::vector<Geometry> seen, touched;
+    const auto add = [&](std::vector<Geometry>& parts, const auto& array, bool collision) {
+      for (const auto& one : array) {
+        const bool capsule = urdf_.is_capsule(at.link->name, collision, parts.size());
+        parts.push_back({pose_of(one->origin), one->geometry.get(), capsule});
+      }
+    };
+    add(seen, at.link->visual_array, false);
+    add(touched, at.link->collision_array, true);
+    const auto meshes = [](const std::vector<Geometry>& parts) {
+      return std::ranges::any_of(parts, [](const Geometry& part) { return part.of->type == urdf::Geometry::MESH; });
+    };
+    const bool drawn = !seen.empty() && !meshes(seen);
+    const bool points = std::ranges::all_of(touched, is_point);
+    const bool visual = !seen.empty() && (touched.empty() || (drawn && (points || meshes(touched))));
+    if (visual && (touched.empty() || !points)) {
+      changed(urdf_.place("link", at.link->name), fmt::format("link {} has {} collision; its visual shapes are its contact",
+                                                              in_quotes(at.link->name), touched.empty() ? "no" : "meshes as"));
+    }
+    std::vector<Shape> shapes = shapes_of(visual ? seen : touched, at);
+    if (!visual && !seen.empty() && (!drawn || differ(shapes, shapes_of(seen, at)))) hidden_.push_back(at.link);
+    return shapes;
+  }
+
+  /// A point, as our own export writes contact elements without radius.
+  static bool is_point(const Geometry& part) {
+    return part.of->type == urdf::Geometry::SPHERE && static_cast<const urdf::Sphere&>(*part.of).radius <= kPointRadius;
+  }
+
+  static bool differ(const std::vector<Shape>& a, const std::vector<Shape>& b) {
+    return !std::ranges::equal(a, b, [](const Shape& one, const Shape& other) {
+      return one.kind == other.kind && one.size == other.size && one.in_body.p == other.in_body.p &&
+             one.in_body.R == other.in_body.R;
+    });
+  }
+
+  /// Shapes in the frame of the link's body. Adds a problem for each mesh.
+  std::vector<Shape> shapes_of(const std::vector<Geometry>& parts, const Placed& at) {
+    std::vector<Shape> shapes;
+    for (const Geometry& part : parts) add_shape(at, at.pose * part.in_link, part, shapes);
+    return shapes;
+  }
+
+  void add_shape(const Placed& at, const Pose& pose, const Geometry& part, std::vector<Shape>& shapes) {
+    const urdf::Geometry& geometry = *part.of;
     Shape shape{.in_body = pose};
     if (geometry.type == urdf::Geometry::BOX) {
       shape.size = vec(static_cast<const urdf::Box&>(geometry).dim);
@@ -218,17 +260,22 @@ class BodyWalk {
       shape.kind = Shape::Kind::cylinder;
       shape.in_body.R = pose.R * y_from_z().transpose();
       shape.size = {cylinder.radius, cylinder.length, 0};
+      for (const double side : {-0.5, 0.5}) {
+        if (part.capsule)
+          shapes.push_back({Shape::Kind::sphere, {pose.R, pose * Vec3(0, 0, side * cylinder.length)}, {cylinder.radius, 0, 0}});
+      }
     } else {
       problems_.add(urdf_.place("link", at.link->name),
                     fmt::format("link {} has the mesh {}; expected box, cylinder or sphere, at least as collision",
                                 in_quotes(at.link->name), in_quotes(static_cast<const urdf::Mesh&>(geometry).filename)));
       return;
     }
-    made_.bodies[at.body].shapes.push_back(shape);
+    shapes.push_back(shape);
   }
 
   /// Sums the masses, reports bodies without mass, and makes names that a module file allows.
   void finish() {
+    refuse_joints();
     std::vector<bool> inner(made_.bodies.size(), false), moved(made_.bodies.size(), false);
     for (const UrdfHinge& one : made_.hinges) {
       inner[one.hinge.parent] = true;
@@ -237,11 +284,14 @@ class BodyWalk {
     std::vector<std::string> names, joints;
     for (std::size_t b = 0; b < made_.bodies.size(); ++b) {
       BodyType& body = made_.bodies[b];
+      repair_inertias(masses_[b], urdf_, made_.notes);
       const UrdfMass whole = united_mass(masses_[b]);
       body.mass = whole.mass;
       body.com = whole.com;
       body.inertia = whole.inertia;
-      if (!(body.mass > 0) && !(inner[b] && moved[b])) {
+      if (body.mass == 0 && inner[b] && !moved[b]) {
+        fix_base(body);
+      } else if (!(body.mass > 0) && !(inner[b] && moved[b])) {
         const std::string found =
             masses_[b].empty() ? "no mass; expected inertial" : "mass " + number_text(body.mass) + " kg; expected more than 0";
         problems_.add(
@@ -249,6 +299,13 @@ class BodyWalk {
             fmt::format("link {} has {} (only a link between two hinges may have none)", in_quotes(body.name), found));
       }
       names.push_back(body.name);
+    }
+    choose_motors(made_.bodies, urdf_, made_.hinges, made_.notes);
+    if (!hidden_.empty()) {
+      const std::string first = in_quotes(hidden_.front()->name);
+      left_out(urdf_.place("link", hidden_.front()->name),
+               fmt::format("the visual shapes of {}; those of collision are drawn and touch",
+                           hidden_.size() == 1 ? "link " + first : fmt::format("{} links, first {}", hidden_.size(), first)));
     }
     for (const UrdfHinge& one : made_.hinges) joints.push_back(one.hinge.name);
     made_.links = std::move(names);
@@ -261,29 +318,46 @@ class BodyWalk {
     note_names("joint", made_.joints, hinges);
   }
 
+  /// Gives the root, which has no mass and of which a hinge moves the rest, a mass; it does not matter, because nothing moves
+  /// the root.
+  void fix_base(BodyType& root) {
+    made_.fixed_base = true;
+    root.mass = 1;
+    root.inertia = usual_inertia(root.mass, root.shapes);
+    changed(urdf_.place("link", root.name),
+            fmt::format("link {} has no mass, and a joint moves the rest: the base is fixed, its mass is 1 kg; {}",
+                        in_quotes(root.name), kFixedBase));
+  }
+
   /// Adds a note on each name that was changed, other than by removing a prefix.
   void note_names(const char* what, const std::vector<std::string>& given, const std::vector<std::string>& allowed) {
     for (std::size_t i = 0; i < given.size(); ++i) {
       if (given[i] == allowed[i] || given[i].ends_with("/" + allowed[i])) continue;
-      made_.notes.push_back(fmt::format("the name of {} {}, which is {} here", what, in_quotes(given[i]), allowed[i]));
+      left_out(urdf_.place(what, given[i]),
+               fmt::format("the name of {} {}, which is {} here", what, in_quotes(given[i]), allowed[i]));
     }
   }
 
   const UrdfText& urdf_;
+  const std::vector<std::string>& locked_;
   Problems& problems_;
   UrdfBodies made_;
   std::vector<std::vector<UrdfMass>> masses_;  ///< of the links of each body
   std::vector<Placed> open_;                   ///< links to read
+  std::set<const urdf::Joint*> joined_;        ///< joints whose links are one body
+  std::vector<const urdf::Joint*> refused_;    ///< joints that cannot be hinges and are not joined
+  std::vector<const urdf::Link*> hidden_;      ///< links whose visual differs from their collision
 };
 
 }  // namespace
 
-UrdfBodies urdf_bodies(const UrdfText& urdf, Problems& problems) {
-  UrdfBodies made = BodyWalk(urdf, problems).read();
+UrdfBodies urdf_bodies(const UrdfText& urdf, const std::vector<std::string>& locked, Problems& problems) {
+  UrdfBodies made = BodyWalk(urdf, locked, problems).read();
   for (const char* tag : {"transmission", "gazebo", "sensor"}) {
     if (const std::size_t number = urdf.count(tag); number > 0)
-      made.notes.push_back(fmt::format("{} of <{}>", counted(number, "element"), tag));
+      made.notes.push_back({urdf.place(), fmt::format("{} of <{}>", counted(number, "element"), tag)});
   }
+  std::ranges::stable_sort(made.notes, {}, [](const UrdfNote& one) { return std::pair(one.place.line, one.place.column); });
   return made;
 }
 

@@ -4,24 +4,22 @@
 #include <vector>
 
 #include "core/model/module_type.h"
+#include "interchange/urdf_motor.h"
+#include "interchange/urdf_note.h"
 #include "interchange/urdf_text.h"
 
 namespace gaitlab::interchange {
 
-struct UrdfHinge {
-  HingeType hinge;               ///< parent and child: indices of UrdfBodies::bodies
-  double effort = 0, speed = 0;  ///< motor's torque at rest, N m, and no-load speed, rad/s; 0 without a motor
-  double dry = 0, viscous = 0;   ///< friction of a driven joint, N m, N m s/rad
-};
-
 struct UrdfBodies {
   std::vector<BodyType> bodies;
   std::vector<UrdfHinge> hinges;
+  bool fixed_base = false;                 ///< true if the root does not move in the world
   std::vector<std::string> links, joints;  ///< names in the URDF file, which may differ from those of bodies and hinges
-  std::vector<std::string> notes;          ///< parts that were left out
+  std::vector<UrdfNote> notes;             ///< in the order of the file
 };
 
 /// Adds a problem for everything that a module cannot contain; the bodies and hinges are then not valid.
-UrdfBodies urdf_bodies(const UrdfText& urdf, Problems& problems);
+/// `locked` as in module_of_urdf.
+UrdfBodies urdf_bodies(const UrdfText& urdf, const std::vector<std::string>& locked, Problems& problems);
 
 }  // namespace gaitlab::interchange

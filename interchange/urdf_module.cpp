@@ -66,6 +66,10 @@ std::string motor_text(const UrdfHinge& hinge) {
   return fmt::format("stall_torque: {}, no_load_speed: {}, dry_friction: {}, viscous_friction: {}", number_text(hinge.effort),
                      number_text(hinge.speed), number_text(hinge.dry), number_text(hinge.viscous));
 }
+/// These keys, and the source where one of them was chosen.
+std::string sourced_motor_text(const UrdfHinge& hinge) {
+  return motor_text(hinge) + (hinge.source.empty() ? "" : ", source: " + yaml_text(hinge.source));
+}
 std::string gain_text(const UrdfHinge& hinge) {
   const double period = Scenario().control_period;
   return fmt::format("Kp: {:.3g}", gain_of_share(kUsualShare, kVoltage, hinge.speed, period));
@@ -83,8 +87,8 @@ std::string hinge_text(const UrdfHinge& one, const UrdfBodies& parts, const Urdf
   if (hinge.passive) {
     text += fmt::format("    drive: none\n    damping: {}\n    friction: {}\n", number_text(hinge.passive->damping),
                         number_text(hinge.passive->friction));
-  } else if (motor_text(one) != motor_text(*common)) {
-    text += fmt::format("    actuator: {{{}}}\n    controller: {{{}}}\n", motor_text(one), gain_text(one));
+  } else if (sourced_motor_text(one) != sourced_motor_text(*common)) {
+    text += fmt::format("    actuator: {{{}}}\n    controller: {{{}}}\n", sourced_motor_text(one), gain_text(one));
   }
   return text;
 }
@@ -104,15 +108,26 @@ struct ModuleText {
   }
 };
 
+/// The hinge whose motor is that of the module: the first with a motor that the file states, else the first with a motor.
+const UrdfHinge* common_motor(const std::vector<UrdfHinge>& hinges) {
+  const auto driven = [](const UrdfHinge& one) { return !one.hinge.passive; };
+  const auto stated = [&](const UrdfHinge& one) { return driven(one) && one.source.empty(); };
+  auto at = std::ranges::find_if(hinges, stated);
+  if (at == hinges.end()) at = std::ranges::find_if(hinges, driven);
+  return at == hinges.end() ? nullptr : &*at;
+}
+
 ModuleText module_text(const UrdfBodies& parts, const std::string& name, const std::string& file) {
-  const auto driven = std::ranges::find_if(parts.hinges, [](const UrdfHinge& one) { return !one.hinge.passive; });
-  const UrdfHinge* common = driven == parts.hinges.end() ? nullptr : &*driven;
+  const UrdfHinge* const common = common_motor(parts.hinges);
   const std::string from = std::filesystem::path(file).filename().string();
   std::string text = fmt::format(
       "# Module {}, written by gaitlab new module --from. Units: m, kg, N m, rad, s. Every key: gaitlab explain module\n"
       "# Add faces, where modules dock; replace the motor by that of a data sheet.\n",
       name);
-  for (const std::string& note : parts.notes) text += one_line("# Not carried over: " + note) + "\n";
+  for (const UrdfNote& note : parts.notes) {
+    const std::string line = note.place.line > 0 ? fmt::format(", line {}", note.place.line) : "";
+    text += one_line(fmt::format("# {}{}: {}", note.kind(), line, note.text)) + "\n";
+  }
   ModuleText made{text + fmt::format("gaitlab_module: 1\nname: {}\nsource: {}\nbodies:\n", yaml_text(name), yaml_text(from))};
   for (std::size_t b = 0; b < parts.bodies.size(); ++b) {
     made.begin("link", parts.links[b]);
@@ -124,14 +139,19 @@ ModuleText module_text(const UrdfBodies& parts, const std::string& name, const s
     made.text += hinge_text(parts.hinges[j], parts, common);
   }
   made.begin("robot", "");
-  if (std::ranges::any_of(parts.bodies, [](const BodyType& body) { return !body.shapes.empty(); }))
-    made.text += "contacts: {all: shapes}\n";
+  const bool shapes = std::ranges::any_of(parts.bodies, [](const BodyType& body) { return !body.shapes.empty(); });
+  // Without contacts `new scenario` writes a fixed base and no ground: an arm on the ground would bend on its start.
+  if (shapes && parts.fixed_base)
+    made.text += "# The base is fixed. For an arm that may touch the ground: contacts: {all: shapes}\n";
+  if (shapes && !parts.fixed_base) made.text += "contacts: {all: shapes}\n";
   if (common == nullptr) return made;
   made.text += fmt::format(
       "actuator: {{type: servo, voltage: {}, {}, load_friction: 0, rotor_inertia: 0, source: "
       "{}}}\ncontroller: {{type: pid, {}, Kd: 0}}\n",
       number_text(kVoltage), motor_text(*common),
-      yaml_text("chosen: the voltage, because URDF has none; torque and speed are the effort and velocity in " + from),
+      yaml_text(common->source.empty()
+                    ? "chosen: the voltage, because URDF has none; torque and speed are the effort and velocity in " + from
+                    : common->source + "; the voltage, because URDF has none"),
       gain_text(*common));
   return made;
 }
@@ -156,10 +176,10 @@ Problem at_urdf(const Problem& problem, const ModuleText& made, const UrdfText& 
 
 }  // namespace
 
-UrdfModule module_of_urdf(const std::string& file, const std::string& name) {
+UrdfModule module_of_urdf(const std::string& file, const std::string& name, const std::vector<std::string>& locked) {
   const UrdfText urdf(file);
   Problems problems;
-  const UrdfBodies parts = urdf_bodies(urdf, problems);
+  const UrdfBodies parts = urdf_bodies(urdf, locked, problems);
   raise_by_line(problems);
   ModuleText made = module_text(parts, name, file);
   // The reader of module files checks what URDF permits: impossible inertias, axes of length 0, sizes of 0.

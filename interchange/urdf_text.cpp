@@ -6,11 +6,13 @@
 
 #include <algorithm>
 #include <exception>
+#include <map>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "core/settings/text_file.h"
+#include "core/settings/wording.h"
 
 namespace gaitlab::interchange {
 
@@ -110,11 +112,12 @@ UrdfText::UrdfText(const std::string& file) : file_(file), text_(read_text(file)
   }
   if (find("robot", 0) == std::string::npos)
     throw InputError(SourceLocation{file}, "has no element <robot>; expected a URDF file");
+  repair_ = repaired_urdf(whole, text_);
   std::vector<std::string> messages;
   {
     UrdfMessages collector(messages);
     try {
-      model_ = urdf::parseURDF(whole);
+      model_ = urdf::parseURDF(repair_.text);
     } catch (const std::exception& error) {
       messages.emplace_back(error.what());
     }
@@ -123,6 +126,35 @@ UrdfText::UrdfText(const std::string& file) : file_(file), text_(read_text(file)
   if (model_ == nullptr || model_->getRoot() == nullptr) {
     throw InputError(SourceLocation{file}, "has no robot; expected a URDF file with an element <robot>");
   }
+  check_tree();
+}
+
+void UrdfText::check_tree() const {
+  std::map<std::string, std::string> parent_of;  // joint that moves the link
+  Problems problems;
+  for (const auto& [name, joint] : model_->joints_) {
+    const auto [first, fresh] = parent_of.emplace(joint->child_link_name, name);
+    if (fresh) continue;
+    problems.add(place("joint", name),
+                 fmt::format("link {} is the child of joints {} and {}; expected one tree", in_quotes(joint->child_link_name),
+                             in_quotes(first->second), in_quotes(name)));
+  }
+  problems.raise();
+}
+
+std::vector<UrdfNote> UrdfText::repairs() const {
+  std::vector<UrdfNote> notes;
+  SourceLocation place{file_, 1, 1};
+  std::size_t at = 0;
+  for (const UrdfRepair::Note& note : repair_.notes) {  // in the order of the file, so that lines are counted once
+    for (; at < note.offset; ++at) {
+      const bool ends = text_[at] == '\n';
+      place.line += ends ? 1 : 0;
+      place.column = ends ? 1 : place.column + 1;
+    }
+    notes.push_back({place, note.text, true});
+  }
+  return notes;
 }
 
 std::size_t UrdfText::find(const std::string& tag, std::size_t from) const {

@@ -32,6 +32,7 @@ struct NewFileArguments {
   std::string name;
   std::optional<std::string> out;   ///< file to write; the default is NAME.yaml
   std::optional<std::string> from;  ///< URDF file; only for modules
+  std::vector<std::string> locked;  ///< names and patterns of its joints that are fixed at 0
   std::string module = "y1";        ///< name of a shipped module type, or a file; only for scenarios
   std::optional<int> count = {};    ///< number of modules in the row; only for scenarios
   std::string servo;                ///< name or file of a servo; only for benches
@@ -66,9 +67,11 @@ int new_module(const NewFileArguments& arguments) {
   std::string text = filled(filled(kSkeletonModule, "@NAME@", name), "@TEXT@", yaml_text(name));
   std::string what = "a module of two bodies and a hinge; replace its numbers by yours";
   bool driven = true;
+  std::size_t changes = 0;
   if (arguments.from) {
-    interchange::UrdfModule made = interchange::module_of_urdf(*arguments.from, name);
-    for (const std::string& note : made.notes) say(*arguments.from, "note", "not carried over: " + note);
+    interchange::UrdfModule made = interchange::module_of_urdf(*arguments.from, name, arguments.locked);
+    for (const interchange::UrdfNote& note : made.notes) say(to_string(note.place), "note", note.kind() + (": " + note.text));
+    changes = static_cast<std::size_t>(std::ranges::count(made.notes, true, &interchange::UrdfNote::changed));
     text = std::move(made.text);
     what = "the robot of " + *arguments.from + " as a module";
     driven = made.driven;
@@ -86,6 +89,7 @@ int new_module(const NewFileArguments& arguments) {
                                "duration: 5}}",
                                yaml_text(file.find('/') == std::string::npos ? "./" + file : file))));
   }
+  if (changes > 0) fmt::print("{}; read the head of {}\n", counted(changes, "change"), shell_word(file));
   return 0;
 }
 
@@ -304,7 +308,16 @@ void add_new_files(Commands& commands, CLI::App& command) {
       commands, "module", "Write a commented module file, to be filled from a data sheet.", new_module,
       [](CLI::App& module, NewFileArguments& arguments) {
         module.add_option("NAME", arguments.name, "name of the module")->required();
-        module.add_option("--from", arguments.from, "URDF file of the robot, instead of an example")->check(not_empty);
+        CLI::Option* const from = module.add_option("--from", arguments.from, "URDF file of the robot, instead of an example");
+        from->check(not_empty);
+        module
+            .add_option("--lock", arguments.locked,
+                        "name or pattern of joints of the URDF file that are fixed at 0; may be repeated")
+            ->check(not_empty)
+            ->expected(1)
+            ->allow_extra_args(false)
+            ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+            ->needs(from);
         add_out(module, arguments);
       },
       &command);

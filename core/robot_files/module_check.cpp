@@ -2,17 +2,17 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <map>
 
 #include "core/model/docking.h"
+#include "core/model/possible_inertia.h"
 #include "core/settings/wording.h"
 
 namespace gaitlab {
 namespace {
 
-constexpr double kRelative = 1e-6;  // relative tolerance of hand-written numbers, for right angles and moments of inertia
+constexpr double kRelative = 1e-6;  // relative tolerance of hand-written numbers, for right angles
 
 const SourceLocation& place_of(const Node& map, const char* key) {
   const Node* value = map.find(key);
@@ -130,16 +130,13 @@ class ModuleCheck {
   }
 
   void check_inertia(const BodyType& b, const SourceLocation& place) {
-    // The tensor is scaled to a largest entry of 1, so that intermediate results remain within the range of a double.
-    const double scale = b.inertia.cwiseAbs().maxCoeff();
-    const Vec3 moments =
-        scale > 0 ? Vec3(scale * Eigen::SelfAdjointEigenSolver<Mat3>(b.inertia / scale, Eigen::EigenvaluesOnly).eigenvalues())
-                  : Vec3::Zero();
+    const Principal own = principal(b.inertia);
+    const Vec3& moments = own.moments;
     const auto text = [&] { return fmt::format("{:.6g}, {:.6g}, {:.6g}", moments[0], moments[1], moments[2]); };
-    if (!(moments[0] > 1e-14 * scale) || !(scale > 0)) {
+    if (!own.positive()) {
       problems_.add(place, fmt::format("the inertia of body '{}' is not positive definite; its principal moments are {} kg m^2",
                                        b.name, text()));
-    } else if (moments[0] + moments[1] < moments[2] * (1 - kRelative)) {
+    } else if (!own.triangle()) {
       problems_.add(place, fmt::format("the inertia of body '{}' is not possible: its principal moments are {} kg m^2, but the "
                                        "largest must not exceed the sum of the other two",
                                        b.name, text()));

@@ -13,7 +13,7 @@ namespace gaitlab::test {
 namespace {
 
 const Label kLongNewFiles(
-    "NewFiles.EveryModuleWithAMotorGetsAFeasibleGait:NewFiles.ThePrintedCommandsRun:NewFiles."
+    "NewFiles.EveryModuleWithAMotorGetsAFeasibleGait:NewFiles.ThePrintedCommandsRun:NewFiles.ImportedRobotsRun:NewFiles."
     "AModuleAndItsScenarioAreFeasibleAsTheyStand",
     "long");
 
@@ -86,6 +86,74 @@ TEST_F(NewFiles, ThePrintedCommandsRun) {
     }
     EXPECT_EQ(commands, 3) << made.out;
   }
+}
+
+/// Small files with the habits of public robots become modules, and run in the scenario that is written for them.
+TEST_F(NewFiles, ImportedRobotsRun) {
+  const std::string imports = std::string(source_folder()) + "/tests/data/imports/";
+  struct Row {
+    const char* file;
+    std::vector<std::string> notes;  ///< after the name of the file
+    const char* base;                ///< expected in the scenario; empty for a floating base
+  };
+  const Row rows[] = {
+      {"visual_is_not_contact",
+       {": note: Changed: effort and velocity become the ends of a motor's line",
+        ":3:3: note: Not carried over: the visual shapes of link 'body'; those of collision are drawn and touch"},
+       ""},
+      {"overlap_at_rest",
+       {": note: Changed: effort and velocity become the ends of a motor's line",
+        ":3:3: note: Changed: link 'base' has no collision; its visual shapes are its contact",
+        ":4:3: note: Changed: link 'hip' has no collision; its visual shapes are its contact",
+        ":5:3: note: Changed: link 'leg' has no collision; its visual shapes are its contact"},
+       ""},
+      {"continuous_joint_without_limit",
+       {": note: Changed: effort and velocity become the ends of a motor's line",
+        ":3:3: note: Not carried over: the fixed base of link 'world'; a scenario fixes it with robot: {base: fixed}",
+        ":4:3: note: Changed: link 'link1' has no collision; its visual shapes are its contact",
+        // 2 m g L = 2 1 kg 9.81 m/s^2 0.45 m
+        ":5:3: note: Changed: joint 'joint1' has no limit of a motor; 8.83 N m at rest and 20 rad/s without load are chosen",
+        ":6:3: note: Changed: link 'link2' has no collision; its visual shapes are its contact"},
+       "  base: fixed "},
+  };
+  for (const Row& row : rows) {
+    const std::string file = imports + row.file + ".urdf";
+    const Result made = call("module m --from " + file);
+    std::string expected;
+    std::size_t changes = 0;
+    for (const std::string& note : row.notes) {
+      expected += file + note + "\n";
+      changes += contains(note, "Changed") ? 1 : 0;
+    }
+    EXPECT_EQ(made.code, 0) << row.file;
+    EXPECT_EQ(made.err, expected) << row.file;
+    EXPECT_TRUE(made.out.ends_with(fmt::format("{} change{}; read the head of m.yaml\n", changes, changes == 1 ? "" : "s")))
+        << made.out;
+    EXPECT_EQ(call("scenario walk --module m.yaml").code, 0) << row.file;
+    EXPECT_TRUE(contains(read(folder / "walk.yaml"), row.base)) << row.file;
+    EXPECT_EQ(contains(read(folder / "walk.yaml"), "base: fixed"), *row.base != 0) << row.file;
+    const Result run = gaitlab("run walk.yaml --quiet --no-report --out run", folder / "");
+    EXPECT_EQ(run.code, 0) << row.file << run.err;
+    for (const char* const name : {"m.yaml", "walk.yaml", "run"}) std::filesystem::remove_all(folder / name);
+  }
+}
+
+/// Without --from, --lock has no joints; a pattern that matches none, and what is refused, leave no file.
+TEST_F(NewFiles, LockNeedsJoints) {
+  const std::string file = std::string(source_folder()) + "/tests/data/imports/prismatic_fingers.urdf";
+  EXPECT_EQ(refused("module m --lock x"),
+            "gaitlab new module: error: --from is missing: URDF file of the robot, instead of an example; expected gaitlab new "
+            "module NAME\n");
+  const std::string sliding =
+      file +
+      ":14:3: error: joint 'finger_left' is prismatic; a module has hinges; they are fixed at 0 by --lock "
+      "\"finger_left\" --lock \"finger_right\"\n" +
+      file + ":17:3: error: joint 'finger_right' is prismatic; a module has hinges\n";
+  EXPECT_EQ(refused("module m --from " + file), sliding);
+  EXPECT_EQ(refused("module m --from " + file + " --lock wrists"),
+            "--lock: error: no joint 'wrists'; did you mean 'wrist'?\n" + sliding);
+  EXPECT_FALSE(std::filesystem::exists(folder / "m.yaml"));
+  EXPECT_EQ(call("module m --from " + file + " --lock 'finger*'").code, 0);
 }
 
 TEST_F(NewFiles, TheGainOfTheExampleIsTheUsualOne) {

@@ -1,0 +1,83 @@
+#include "interchange/urdf_joined.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <ranges>
+
+#include "core/model/pattern.h"
+#include "core/settings/joint_patterns.h"
+#include "core/settings/wording.h"
+
+namespace gaitlab::interchange {
+
+namespace {
+
+/// Links from the root outwards, each after its parent.
+std::vector<const urdf::Link*> links_outwards(const urdf::ModelInterface& model) {
+  std::vector<const urdf::Link*> links{model.getRoot().get()};
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    for (const urdf::LinkSharedPtr& child : links[i]->child_links) links.push_back(child.get());
+  }
+  return links;
+}
+
+/// Properties of a link and of all that is joined to it.
+struct JoinedGroup {
+  bool mass = false, moves = false;  ///< true if it has mass; true if it is the parent of a joint that moves
+};
+
+/// Adds a problem for each name or pattern that matches no joint that moves.
+void check_locked(const std::vector<const urdf::Link*>& links, const std::vector<std::string>& locked, Problems& problems) {
+  std::vector<std::string> moving;
+  for (const urdf::Link* const link : links) {
+    const urdf::Joint* const joint = link->parent_joint.get();
+    if (joint != nullptr && joint->type != urdf::Joint::FIXED) moving.push_back(joint->name);
+  }
+  for (const std::string& one : locked) {
+    if (std::ranges::any_of(moving, [&](const std::string& name) { return glob(one, name); })) continue;
+    problems.add(SourceLocation{"--lock"}, no_joint(one, moving));
+  }
+}
+
+}  // namespace
+
+std::set<const urdf::Joint*> joined_joints(const UrdfText& urdf, const std::vector<std::string>& locked,
+                                           std::vector<UrdfNote>& notes, Problems& problems) {
+  std::set<const urdf::Joint*> joined;
+  std::map<const urdf::Link*, JoinedGroup> groups;
+  const std::vector<const urdf::Link*> links = links_outwards(urdf.model());
+  check_locked(links, locked, problems);
+  for (const urdf::Link* const link : std::views::reverse(links)) {
+    JoinedGroup& own = groups[link];
+    own.mass = own.mass || (link->inertial != nullptr && link->inertial->mass != 0);
+    const urdf::Joint* const joint = link->parent_joint.get();
+    if (joint == nullptr) continue;
+    JoinedGroup& parent = groups[urdf.model().getLink(joint->parent_link_name).get()];
+    const bool fixed = joint->type == urdf::Joint::FIXED;
+    const auto matches = [&](const std::string& one) { return glob(one, joint->name); };
+    const bool by_option = !fixed && std::ranges::any_of(locked, matches);
+    const bool frame = !fixed && !by_option && !own.mass && !own.moves;
+    if (by_option) {
+      notes.push_back({urdf.place("joint", joint->name),
+                       fmt::format("joint {} is fixed at 0, as --lock asks", in_quotes(joint->name)), true});
+    }
+    if (frame) {
+      notes.push_back({urdf.place("joint", joint->name),
+                       fmt::format("joint {} moves only link {}, which has no mass; it is fixed at 0", in_quotes(joint->name),
+                                   in_quotes(link->name)),
+                       true});
+    }
+    if (fixed || by_option || frame) {
+      joined.insert(joint);
+      parent.mass = parent.mass || own.mass;
+      parent.moves = parent.moves || own.moves;
+    } else {
+      parent.moves = true;
+    }
+  }
+  return joined;
+}
+
+}  // namespace gaitlab::interchange
