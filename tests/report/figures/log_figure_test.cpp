@@ -14,7 +14,7 @@ namespace {
 using namespace report;
 
 /// Heights of the curves of a colour in the sheet, px: of the panel above, and of the one below.
-std::vector<Bounds> heights(const std::string& svg, std::string_view stroke) {
+std::vector<Bounds> curve_bounds(const std::string& svg, std::string_view stroke) {
   std::vector<Bounds> found;
   const std::regex path("<path d=\"M([^\"]*)\" fill=\"none\" stroke=\"" + std::string(stroke) + "\"[^>]*linejoin");
   for (std::sregex_iterator one(svg.begin(), svg.end(), path), end; one != end; ++one) {
@@ -40,9 +40,9 @@ TEST(LogFigure, AMomentFarOffIsCut) {
   const std::string svg = log_figure("a <log>", t, off, {&curves, 1});
   EXPECT_NE(svg.find("<title>a &lt;log&gt;</title>"), std::string::npos);
 
-  const std::vector<Bounds> of_log = heights(svg, log_colour::kLog);
-  const std::vector<Bounds> of_run = heights(svg, log_colour::kRun);
-  const std::vector<Bounds> of_other = heights(svg, log_colour::kOther);
+  const std::vector<Bounds> of_log = curve_bounds(svg, log_colour::kLog);
+  const std::vector<Bounds> of_run = curve_bounds(svg, log_colour::kRun);
+  const std::vector<Bounds> of_other = curve_bounds(svg, log_colour::kOther);
   ASSERT_EQ(of_log.size(), 1U);
   ASSERT_EQ(of_run.size(), 2U);
   ASSERT_EQ(of_other.size(), 2U);

@@ -150,8 +150,8 @@ TEST(CheckEvidence, TooCloseToTheLimitOfAMotor) {
     Case made = rated_gait();
     off(error)(made);
     for (std::size_t k = made.last_tick() - 40; k <= made.last_tick(); ++k) {
-      made.tick(k, kJoint, kEnvelopePeak) = peak;
-      made.tick(k, kJoint, kCurrentPeak) = current;
+      made.tick(k, kChanged, kEnvelopePeak) = peak;
+      made.tick(k, kChanged, kCurrentPeak) = current;
     }
     return made;
   };
@@ -179,7 +179,7 @@ TEST(CheckEvidence, TooCloseToTheLimitOfAMotor) {
     return two.check("voltage");
   };
   EXPECT_EQ(other(3.04).status, CheckStatus::fail) << other(3.04).text;
-  EXPECT_EQ(other(3.04).worst, fails.scenario.robot->joints[kJoint].name);
+  EXPECT_EQ(other(3.04).worst, fails.scenario.robot->joints[kChanged].name);
   EXPECT_EQ(other(2.9).status, CheckStatus::too_close) << other(2.9).text;
 }
 
@@ -190,7 +190,7 @@ TEST(CheckEvidence, TheBarOfAStretch) {
     Case made = rated_gait();
     off(0.03)(made);
     made.scenario.limits.saturated_share = 1;
-    for (std::size_t k = made.last_tick() + 1 - near; k <= made.last_tick(); ++k) made.tick(k, kJoint, kEnvelopePeak) = 0.98;
+    for (std::size_t k = made.last_tick() + 1 - near; k <= made.last_tick(); ++k) made.tick(k, kChanged, kEnvelopePeak) = 0.98;
     grow(made, kVoltageLimited, 1, 9, 9 + periods * 0.015);
     return made.status("voltage");
   };
@@ -207,8 +207,8 @@ TEST(CheckEvidence, TheBarOfAStretch) {
     partly.scenario.limits.saturated_share = 1;
     double sum = 0;
     for (std::size_t k = partly.last_tick() - 5; k <= partly.last_tick(); ++k) {
-      partly.tick(k, kJoint, kEnvelopePeak) = 1;
-      partly.tick(k, kJoint, column) = sum += 0.4 * (partly.time(k) - partly.time(k - 1));
+      partly.tick(k, kChanged, kEnvelopePeak) = 1;
+      partly.tick(k, kChanged, column) = sum += 0.4 * (partly.time(k) - partly.time(k - 1));
     }
     EXPECT_EQ(partly.status("voltage"), column == kVoltageLimited ? CheckStatus::warn : CheckStatus::pass);
   }
@@ -224,7 +224,7 @@ TEST(CheckEvidence, AnyPartDecides) {
         for (std::size_t k = 0; k <= made.last_tick(); ++k)
           made.tick(k, joint, column) = square ? share * share * limit * limit * made.time(k) : share * limit;
       };
-      set(kJoint, first);
+      set(kChanged, first);
       set(2, second);
     };
   };
@@ -234,7 +234,7 @@ TEST(CheckEvidence, AnyPartDecides) {
     const auto check = [&, &of = id, in = column, most = limit, sums = square](double first, double second) {
       return changed(of, with(in, most, sums, first, second));
     };
-    const std::string& nearer = rated_gait().scenario.robot->joints[kJoint].name;
+    const std::string& nearer = rated_gait().scenario.robot->joints[kChanged].name;
     EXPECT_EQ(check(1.02, 0.9).status, CheckStatus::too_close) << id;
     EXPECT_EQ(check(1.02, 1.01).status, CheckStatus::fail) << id << ": " << check(1.02, 1.01).text;
     EXPECT_EQ(check(1.02, 1.01).worst, nearer) << id;
@@ -290,7 +290,7 @@ TEST(CheckEvidence, WhatNothingBears) {
 
 /// A torque error that is NaN counts as the largest error, in any joint.
 TEST(CheckEvidence, NotANumberIsNoEvidence) {
-  for (const std::size_t joint : {std::size_t{0}, kJoint, std::size_t{9}}) {
+  for (const std::size_t joint : {std::size_t{0}, kChanged, std::size_t{9}}) {
     Case made = rated_gait();
     off(0.01)(made);
     made.record.tally.torque_error[joint] = std::nan("");

@@ -51,7 +51,7 @@ TEST(Decision, EventsAreByTime) {
   grow(made, kCurrentLimited, 1, 8, 9);
   made.scenario.limits.tracking_error = 1e-6;  // this check fails without such a time
   const auto json = nlohmann::json::parse(to_json(made.judged()));
-  const std::string& joint = made.scenario.robot->joints[kJoint].name;
+  const std::string& joint = made.scenario.robot->joints[kChanged].name;
   ASSERT_EQ(json["events"].size(), 2U) << json["events"];
   EXPECT_EQ(json["events"][0]["check"], "current");
   EXPECT_NEAR(json["events"][0]["time"], 8, 1e-9);

@@ -42,7 +42,7 @@ Change error_at_time(double t, double error) {
   return [=](Case& made) {
     std::size_t row = 0;
     while (made.time(row) < t) ++row;
-    made.tick(row, kJoint, kErrorPeak) = error;
+    made.tick(row, kChanged, kErrorPeak) = error;
   };
 }
 

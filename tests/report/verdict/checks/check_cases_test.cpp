@@ -81,12 +81,12 @@ TEST(CheckCases, SaturationNamesItsJoints) {
     made.scenario.limits.saturated_periods = 1e6;
     for (std::size_t k = 0; k <= made.last_tick(); ++k) {
       made.tick(k, 2, kVoltageLimited) = second * std::max(0.0, made.time(k) - 9);
-      made.tick(k, kJoint, kVoltageLimited) = fifth * std::max(0.0, made.time(k) - 10);
+      made.tick(k, kChanged, kVoltageLimited) = fifth * std::max(0.0, made.time(k) - 10);
     }
     return made.check("voltage");
   };
   const std::vector<Joint>& joints = rated_gait().scenario.robot->joints;
-  EXPECT_EQ(with(0.1, 0.2).worst, joints[kJoint].name);
+  EXPECT_EQ(with(0.1, 0.2).worst, joints[kChanged].name);
   EXPECT_EQ(with(0.2, 0.1).worst, joints[2].name);
   EXPECT_EQ(with(0.2, 0.1).parts, 2U);
   EXPECT_EQ(with(0, 0.1).parts, 1U);
@@ -113,8 +113,8 @@ TEST(CheckCases, SaturationOfEqualStretches) {
     return check.worst;
   };
   const std::vector<Joint>& joints = rated_gait().scenario.robot->joints;
-  EXPECT_EQ(worst(2, kJoint), joints[2].name);
-  EXPECT_EQ(worst(kJoint, 2), joints[kJoint].name);
+  EXPECT_EQ(worst(2, kChanged), joints[2].name);
+  EXPECT_EQ(worst(kChanged, 2), joints[kChanged].name);
 }
 
 /// Recorded saturation counts also if the actuator of the scenario states no limit.
@@ -137,7 +137,7 @@ TEST(CheckCases, AStretchHasNoGaps) {
       made.scenario.limits.saturated_share = 1;
       double sum = 0;
       for (std::size_t k = made.last_tick() - 5; k <= made.last_tick(); ++k)
-        made.tick(k, kJoint, kCurrentLimited) = sum += part * (made.time(k) - made.time(k - 1));
+        made.tick(k, kChanged, kCurrentLimited) = sum += part * (made.time(k) - made.time(k - 1));
     });
   };
   EXPECT_EQ(status(0.9995), CheckStatus::fail);
@@ -148,11 +148,11 @@ TEST(CheckCases, FirstIsWhenAPartWasBeyondItsLimitFirst) {
   Case made = rated_gait();
   const double later = made.time(20);
   made.tick(20, 2, kTorquePeak) = 5.1;
-  made.tick(30, kJoint, kTorquePeak) = 6;
-  made.tick(10, kJoint, kTorquePeak) = 4.9;
+  made.tick(30, kChanged, kTorquePeak) = 6;
+  made.tick(10, kChanged, kTorquePeak) = 4.9;
   EXPECT_EQ(made.check("gear_peak").first, later);
   EXPECT_EQ(made.check("gear_peak").first_part, made.scenario.robot->joints[2].name);
-  EXPECT_EQ(made.check("gear_peak").worst, made.scenario.robot->joints[kJoint].name);
+  EXPECT_EQ(made.check("gear_peak").worst, made.scenario.robot->joints[kChanged].name);
   made.load("dock.2.shear", 20) = 810;
   made.load("dock.3.shear", 30) = -900;
   made.load("dock.3.shear", 10) = 790;
@@ -215,7 +215,7 @@ TEST(CheckCases, HingesWithoutMotorRestOnTheirStops) {
     made.record.joints[4].range_worst = with;
     return made.check("stops");
   };
-  const std::string hinge = gait().scenario.robot->joints[kJoint].name;
+  const std::string hinge = gait().scenario.robot->joints[kChanged].name;
   const std::string driven = gait().scenario.robot->joints[4].name;
   EXPECT_EQ(stops(0, 0).worst, "");
   EXPECT_EQ(stops(0.04, 0).worst, hinge);

@@ -12,19 +12,19 @@
 
 namespace gaitlab::test {
 
-inline constexpr std::size_t kJoint = 5;  // number of the joint whose values are changed
-inline constexpr std::size_t kEarly = 1;  // number of a row before the judged window
+inline constexpr std::size_t kChanged = 5;  // number of the joint whose values are changed
+inline constexpr std::size_t kEarly = 1;    // number of a row before the judged window
 
-/// Sets the cell of joint kJoint in a row of ticks; row 0 means the last row.
+/// Sets the cell of joint kChanged in a row of ticks; row 0 means the last row.
 inline Change tick(TickColumn column, double value, std::size_t row = 0) {
-  return [=](Case& made) { made.tick(row == 0 ? made.last_tick() : row, kJoint, column) = value; };
+  return [=](Case& made) { made.tick(row == 0 ? made.last_tick() : row, kChanged, column) = value; };
 }
 
 /// Sets a column of ticks that contains a sum. The sum grows by `rate` per second between times `from` and `to`, and is
 /// constant at other times.
 inline void grow(Case& made, TickColumn column, double rate, double from, double to) {
   for (std::size_t k = 0; k <= made.last_tick(); ++k)
-    made.tick(k, kJoint, column) = rate * std::max(0.0, std::min(made.time(k), to) - from);
+    made.tick(k, kChanged, column) = rate * std::max(0.0, std::min(made.time(k), to) - from);
 }
 
 inline double window_start(const Case& made) { return made.time(summarise(made.scenario, made.record, 0).judged.first_row); }
@@ -38,7 +38,7 @@ inline Change early_rate(TickColumn column, double value) {
 }
 
 inline Change joint(double JointStatistics::*member, double value) {
-  return [=](Case& made) { made.record.joints[kJoint].*member = value; };
+  return [=](Case& made) { made.record.joints[kChanged].*member = value; };
 }
 
 inline Change load(const std::string& column, double value, std::size_t row = 0) {
@@ -70,13 +70,13 @@ inline Change creeps(double share, bool early = false) {
   };
 }
 
-/// Takes the motor of joint kJoint away, and holds the joint beyond its stop, rad.
+/// Takes the motor of joint kChanged away, and holds the joint beyond its stop, rad.
 inline Change rests_on_stop(double beyond) {
   return [=](Case& made) {
     const auto robot = std::make_shared<Robot>(*made.scenario.robot);
-    robot->joints[kJoint].passive.emplace();
+    robot->joints[kChanged].passive.emplace();
     made.scenario.robot = robot;
-    made.record.joints[kJoint].range_worst = beyond;
+    made.record.joints[kChanged].range_worst = beyond;
   };
 }
 
@@ -120,13 +120,13 @@ inline Change goes(double extents, bool early = false) {
   };
 }
 
-/// Sets the estimated torque error of joint kJoint, as a share of its largest torque.
+/// Sets the estimated torque error of joint kChanged, as a share of its largest torque.
 inline Change off(double share) {
   return [=](Case& made) {
     made.record.tally.estimated = true;
     made.record.tally.torque_peak.assign(made.record.joints.size(), 1.0);
     made.record.tally.torque_error.assign(made.record.joints.size(), 0.0);
-    made.record.tally.torque_error[kJoint] = share;
+    made.record.tally.torque_error[kChanged] = share;
   };
 }
 

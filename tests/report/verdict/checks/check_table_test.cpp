@@ -67,7 +67,7 @@ Change at_rest(double torque, bool early = false) {
     static const Scenario kFree = shipped(
         "caterpillar.yaml", {"physics.engine=articulated", "actuator.i_max=10", "actuator.efficiency_model=directional"});
     made.scenario.actuator = kFree.actuator;
-    for (std::size_t k = 0; k <= made.last_tick(); ++k) made.tick(k, kJoint, kSpeedPeak) = 0;
+    for (std::size_t k = 0; k <= made.last_tick(); ++k) made.tick(k, kChanged, kSpeedPeak) = 0;
     (early ? early_rate(kTorqueSquare, torque * torque) : rate(kTorqueSquare, torque * torque))(made);
   };
 }
@@ -98,7 +98,7 @@ Change off_log(double share, double limit) {
   return [=](Case& made) {
     made.scenario.measured.log = std::make_shared<const MeasuredLog>();
     made.also = [=](Summary& summary, Overlaps&) {
-      JointLogErrors joint{kJoint, {}, limit, 0};
+      JointLogErrors joint{kChanged, {}, limit, 0};
       joint.errors[static_cast<std::size_t>(Logged::angle)] = LogError{2 * share, 2 * share, 2 * share, 0, 2};
       summary.log = LogErrors{100, 10, 10, {joint}};
     };
@@ -156,7 +156,7 @@ std::vector<Expected> table() {
        [](double v) {
          return [v](Case& made) {
            for (JointStatistics& one : made.record.joints) one.created = 0;
-           made.record.joints[kJoint].created = v * made.record.ledger.electrical;
+           made.record.joints[kChanged].created = v * made.record.ledger.electrical;
          };
        },
        0.05, 0.05},
@@ -209,11 +209,11 @@ TEST(CheckTable, CountsThePartsBeyondTheirLimits) {
                                           {"speed", kSpeedPeak, 3.154}}) {
     Case made = rated_gait();
     made.tick(made.last_tick(), 2, column) = 1.01 * warns;
-    made.tick(made.last_tick(), kJoint, column) = 1.02 * warns;
+    made.tick(made.last_tick(), kChanged, column) = 1.02 * warns;
     const Check check = made.check(id);
     EXPECT_EQ(check.parts, 2U) << id;
     EXPECT_EQ(check.part, Part::joint) << id;
-    EXPECT_EQ(check.worst, made.scenario.robot->joints[kJoint].name) << id;
+    EXPECT_EQ(check.worst, made.scenario.robot->joints[kChanged].name) << id;
     EXPECT_EQ(check.to, made.time(made.last_tick())) << id;
     EXPECT_EQ(check.from, made.time(made.last_tick() - 1)) << id;
   }
