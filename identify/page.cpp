@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <span>
 
 #include "core/build_id.h"
 #include "core/scenario/change_section.h"
@@ -98,25 +99,35 @@ std::string section(const char* title, const std::string& content) {
   return content.empty() ? "" : fmt::format("<h2>{}</h2>\n{}", title, content);
 }
 
-/// SVG of a log with the runs of bench and fit.
-std::string figure(const BenchLog& log, const Compared& before, const Compared& after, Logged kind) {
+/// SVG of the quantities of a log with the runs of bench and fit.
+std::string figure(const BenchLog& log, const Compared& before, const Compared& after, std::span<const Logged> kinds) {
   const MeasuredLog& measured = *log.scenario.measured.log;
-  const LoggedKind& of = logged_kinds()[static_cast<std::size_t>(kind)];
-  const bool angle = kind == Logged::angle;
   std::vector<report::LogCurves> curves;
-  std::vector<report::LogStretch> off;
-  for (std::size_t j = 0; j < measured.joints.size(); ++j) {
-    const std::vector<double>& values = measured.joints[j].of(kind);
-    if (values.empty()) continue;
-    const std::string joint = measured.joints.size() == 1 ? of.key : log.scenario.robot->joints[measured.joints[j].joint].name;
-    curves.push_back({fmt::format("{}, {}", joint, of.unit), angle ? "mrad" : of.unit, angle ? 1e-3 : 1, values,
-                      after.simulated[j].of(kind), before.simulated[j].of(kind)});
+  std::vector<std::string> names;
+  for (const Logged kind : kinds) {
+    const LoggedKind& of = logged_kinds()[static_cast<std::size_t>(kind)];
+    names.emplace_back(of.key);
+    for (std::size_t j = 0; j < measured.joints.size(); ++j) {
+      const std::vector<double>& values = measured.joints[j].of(kind);
+      if (values.empty()) continue;
+      std::string title = measured.joints.size() == 1 ? of.key : log.scenario.robot->joints[measured.joints[j].joint].name;
+      if (measured.joints.size() > 1 && kinds.size() > 1) title += fmt::format(" {}", of.key);
+      const std::string unit = of.unit;
+      if (!unit.empty()) title += ", " + unit;
+      report::LogCurves& one = curves.emplace_back(
+          report::LogCurves{title, unit, 1, values, after.simulated[j].of(kind), before.simulated[j].of(kind)});
+      if (unit.empty()) one.of_difference = "difference";
+      if (kind != Logged::angle) continue;
+      one.of_difference = "mrad";
+      one.scale = 1e-3;
+    }
   }
+  std::vector<report::LogStretch> off;
   for (const FaultSpan& fault : fault_spans(log.scenario)) {
     if (fault.kind == FaultKind::open && fault.joint == measured.joints[0].joint) off.push_back({fault.from, fault.to});
   }
-  const std::string svg =
-      report::log_figure(fmt::format("{} of {}, by the log and by both runs", of.key, log.name), measured.t, off, curves);
+  const std::string title = fmt::format("{} of {}, by the log and by both runs", fmt::join(names, " and "), log.name);
+  const std::string svg = report::log_figure(title, measured.t, off, curves);
   return svg.substr(svg.find("<svg"));
 }
 
@@ -180,7 +191,7 @@ class Page {
     if (row[4] != "-") text += fmt::format("; at the limit {} of the time, {} in the log", row[4], row[5]);
     if (!of.of_table.empty()) text += fmt::format("; {}", xml_escaped(fmt::format("{}", fmt::join(of.of_table, ", "))));
     if (origins_.size() > 1) text += fmt::format("<br>{}", xml_escaped(of.scenario.measured.source));
-    return text + "</small></figcaption>\n" + figure(of, made_.before[log], made_.after[log], made_.kinds[0]) + "</figure>\n";
+    return text + "</small></figcaption>\n" + figure(of, made_.before[log], made_.after[log], made_.kinds) + "</figure>\n";
   }
 
   const Identified& made_;

@@ -11,10 +11,10 @@ namespace gaitlab::report {
 namespace {
 
 // px
-constexpr double kLogWidth = 440, kLeft = 56, kRight = 430, kTop = 10;
+constexpr double kLogWidth = 446, kLeft = 64, kRight = 438, kTop = 10;
 constexpr double kCurves = 150, kDifferences = 76, kGap = 12;  // heights of the panels, and the distance between them
 constexpr double kFoot = 46;                                   // time axis with its title
-constexpr double kAway = 42;                                   // from the frame to a title at its side
+constexpr double kAway = 50;                                   // from the frame to a title at its side
 constexpr double kRoom = 0.05;                                 // share of the range above and below the curves
 constexpr PlotLook kSmall{.text = 12};
 
