@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "core/robot_files/identification.h"
 #include "identify/identify.h"
 
 namespace gaitlab::identify {
@@ -10,8 +11,8 @@ namespace gaitlab::identify {
 /// Error of a quantity with its unit; of an angle in mrad.
 std::string error_text(double error, Logged kind);
 
-/// Sentence on the origin of the fitted values: logs, their hash, errors, and the range of speeds that the logs cover.
-std::string source_text(const Identified& made, const std::vector<BenchLog>& logs);
+/// Logs of the fitted values, their errors, and the speeds and torques that they cover.
+Identification identification(const Identified& made, const std::vector<BenchLog>& logs);
 
 /// True if a servo file can state the key: one of actuator or controller, for all joints.
 bool holds_in_servo_file(const Key& key);
