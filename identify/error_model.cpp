@@ -140,6 +140,7 @@ std::vector<Compared> ErrorModels::compared(const Point& point) {
         for (const MeasuredLog::OfJoint& joint : one.rollout.scenario.measured.log->joints) {
           made.largest_current = std::max(made.largest_current, largest(one.recording, joint.joint, "current"));
           made.largest_speed = std::max(made.largest_speed, largest(one.recording, joint.joint, "speed"));
+          made.largest_torque = std::max(made.largest_torque, one.recording.joints[joint.joint].torque_peak);
           MeasuredLog::OfJoint& curves = made.simulated.emplace_back(MeasuredLog::OfJoint{joint.joint, {}});
           for (const LoggedKind& kind : logged_kinds()) {
             if (!joint.of(kind.kind).empty())

@@ -49,6 +49,7 @@ struct Compared {
   std::optional<report::LogErrors> errors;      ///< none if the run did not reach its end
   double largest_current = 0;                   ///< A, of the logged joints
   double largest_speed = 0;                     ///< rad/s, of the logged joints
+  double largest_torque = 0;                    ///< N m, on the logged joints, over all steps
   std::vector<MeasuredLog::OfJoint> simulated;  ///< as MeasuredLog::joints: values of the run at the rows of the log
 };
 

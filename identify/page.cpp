@@ -138,8 +138,9 @@ class Page {
 
   [[nodiscard]] std::string text(const std::vector<std::string>& limits, const std::string& result) const {
     const std::string& name = logs_[0].scenario.name;
-    std::string body = fmt::format("<h1>{}: identified from logs</h1>\n<p>{}; {} of {} starts end within 2 % of the best</p>\n",
-                                   xml_escaped(name), xml_escaped(source_text(made_, logs_)), made_.agreed, made_.starts);
+    std::string body =
+        fmt::format("<h1>{}: identified from logs</h1>\n<p>{}; {} of {} starts end within 2 % of the best</p>\n",
+                    xml_escaped(name), xml_escaped(long_text(identification(made_, logs_))), made_.agreed, made_.starts);
     body += "<div class=\"tables\">\n" + table("keys", key_rows(made_, keys_)) + table("errors", error_rows(made_, logs_)) +
             "</div>\n";
     std::string list;

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "core/files/hash.h"
+#include "core/robot_files/identification.h"
 #include "core/robot_files/servo_file.h"
 #include "core/settings/overlay.h"
 #include "core/settings/wording.h"
@@ -29,6 +30,29 @@ void remove(Node& map, const std::string& key) {
 void put(Node& map, const std::string& key, double value) {
   map.keys.emplace_back(key, SourceLocation{});
   map.items.push_back(scalar_node(number_text(value)));
+}
+
+Identification::Quantity quantity_of(Logged kind) { return static_cast<Identification::Quantity>(kind); }
+
+/// The value with the digits that it has in texts.
+double in_short(double value) { return std::stod(fmt::format("{:.3g}", value)); }
+
+/// The same, but not less than the value: a run of the logs themselves stays within them.
+double not_less(double value) {
+  constexpr double kHalfDigit = 0.005;  // half of the last of three digits is at most this share of the value
+  const double near = in_short(value);
+  return near < value ? in_short(value * (1 + kHalfDigit)) : near;
+}
+
+/// YAML of an identification.
+std::string identified_text(Identification identified) {
+  const std::vector<std::string> no_names;
+  Writer writer(no_names);
+  identified.fields(writer);
+  Node map = writer.take();
+  map.flow = false;
+  if (identified.by.empty()) remove(map, "by");
+  return fmt::format("{}:\n{}", kIdentified, print_yaml(map, 2));
 }
 
 /// Actuator and controller of the bench, with the keys of the servo file that they name, without keys of the robot.
@@ -81,12 +105,7 @@ void take_values(Node& map, const std::string& section, const Identified& made, 
 
 }  // namespace
 
-std::string error_text(double error, Logged kind) {
-  constexpr double kMilli = 1e-3;
-  if (kind == Logged::angle) return fmt::format("{:.3g} mrad", error / kMilli);
-  const std::string unit = logged_kinds()[static_cast<std::size_t>(kind)].unit;
-  return fmt::format("{:.3g}{}{}", error, unit.empty() ? "" : " ", unit);
-}
+std::string error_text(double error, Logged kind) { return gaitlab::error_text(error, quantity_of(kind)); }
 
 std::vector<std::string> origins_of(const std::vector<BenchLog>& logs) {
   std::vector<std::string> origins;
@@ -97,24 +116,28 @@ std::vector<std::string> origins_of(const std::vector<BenchLog>& logs) {
   return origins;
 }
 
-std::string source_text(const Identified& made, const std::vector<BenchLog>& logs) {
+Identification identification(const Identified& made, const std::vector<BenchLog>& logs) {
+  Identification of;
   std::string hashes;
-  double fastest = 0;
-  std::size_t fitted = 0;
   for (std::size_t l = 0; l < logs.size(); ++l) {
-    if (logs[l].held_out) continue;
-    ++fitted;
+    if (logs[l].held_out) {
+      ++of.held_out_logs;
+      continue;
+    }
+    ++of.logs;
     hashes += logs[l].hash;
-    fastest = std::max(fastest, made.after[l].largest_speed);
+    of.speed = std::max(of.speed, made.after[l].largest_speed);
+    of.torque = std::max(of.torque, made.after[l].largest_torque);
   }
-  std::string text =
-      fmt::format("identified from {} (hash {}), fitted to {}, speeds up to {:.3g} rad/s", counted(fitted, "log"), hash(hashes),
-                  error_text(mean_error(logs, made.after, made.kinds[0], false).value_or(0), made.kinds[0]), fastest);
-  if (const auto held_out = mean_error(logs, made.after, made.kinds[0], true))
-    text +=
-        fmt::format("; held-out error {} on {}", error_text(*held_out, made.kinds[0]), counted(logs.size() - fitted, "log"));
-  for (const std::string& origin : origins_of(logs)) text += "; " + origin;
-  return text;
+  of.quantity = quantity_of(made.kinds[0]);
+  of.error = in_short(mean_error(logs, made.after, made.kinds[0], false).value_or(0));
+  of.held_out = in_short(mean_error(logs, made.after, made.kinds[0], true).value_or(0));
+  of.held_out_before = in_short(mean_error(logs, made.before, made.kinds[0], true).value_or(0));
+  of.speed = not_less(of.speed);
+  of.torque = not_less(of.torque);
+  of.by = fmt::format("{}", fmt::join(origins_of(logs), "; "));
+  of.hash = hash(hashes);
+  return of;
 }
 
 bool holds_in_servo_file(const Key& key) {
@@ -138,6 +161,7 @@ std::string servo_text(const std::string& name, const std::string& file, const s
     if (section == "controller" && (type == nullptr || type->text != "rc_servo")) continue;  // not the servo's own
     if (const Node* const source = map.find("source")) of_stated = source->text;
     remove(map, "source");
+    remove(map, kIdentified);
     take_values(map, section, made, keys, sources);
     if (section == "actuator" && logs[0].efficiency) {
       remove(map, "stall_current");
@@ -151,10 +175,11 @@ std::string servo_text(const std::string& name, const std::string& file, const s
   const auto add = [&](const std::vector<std::string>& of, const char* kind, const std::string& why) {
     if (!of.empty()) text += fmt::format("  - {{of: [{}], kind: {}, text: {}}}\n", fmt::join(of, ", "), kind, yaml_text(why));
   };
-  add(sources.fitted, "identified", source_text(made, logs));
+  const Identification identified = identification(made, logs);
+  add(sources.fitted, "identified", long_text(identified));
   add(sources.kept, "chosen", "value of the bench; it does not follow from these logs");
   add(sources.stated, of_stated ? "data sheet" : "chosen", of_stated.value_or("stated in the bench"));
-  return text + maps;
+  return text + identified_text(identified) + maps;
 }
 
 }  // namespace gaitlab::identify

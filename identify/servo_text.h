@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "core/robot_files/identification.h"
 #include "identify/identify.h"
 
 namespace gaitlab::identify {
@@ -13,9 +14,8 @@ std::string error_text(double error, Logged kind);
 /// Origins and licences that the logs state (measured.source), each once.
 std::vector<std::string> origins_of(const std::vector<BenchLog>& logs);
 
-/// Sentence on the origin of the fitted values: logs, their hash, errors, the range of speeds that the logs cover, and the
-/// origin of the logs.
-std::string source_text(const Identified& made, const std::vector<BenchLog>& logs);
+/// Logs of the fitted values, their errors, and the speeds and torques that they cover.
+Identification identification(const Identified& made, const std::vector<BenchLog>& logs);
 
 /// True if a servo file can state the key: one of actuator or controller, for all joints.
 bool holds_in_servo_file(const Key& key);

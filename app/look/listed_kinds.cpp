@@ -109,6 +109,10 @@ std::vector<ListedKind> all_kinds() {
   };
   all.push_back(std::move(modules));
   ListedKind servos = of_files("servo", "servos", false);
+  servos.about = [](const std::string& name, Catalog&) {
+    const std::string file = shipped_file("servo", name);
+    return servo_row(file, head_sentence(read_text(file)));
+  };
   servos.manual = [](const std::string& name, Catalog& catalog) { return servo_manual(shipped_file("servo", name), catalog); };
   all.push_back(std::move(servos));
   all.push_back(of_files("robot", "robots", true));

@@ -11,4 +11,7 @@ namespace gaitlab::app {
 /// wrong, and PluginError.
 std::string servo_table(const std::string& path, const std::string& about, const Catalog& catalog);
 
+/// Line of a servo in lists: `head`, the origin of its numbers, and their error. Throws InputError if the file is wrong.
+std::string servo_row(const std::string& path, const std::string& head);
+
 }  // namespace gaitlab::app

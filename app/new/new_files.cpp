@@ -39,16 +39,6 @@ struct NewFileArguments {
   double mass = 0.3, length = 0.1;  ///< of the arm, kg and m; only for benches
 };
 
-/// Checks the name of a module or scenario, which becomes the name of its file.
-void check_file_name(const std::string& what, const std::string& name) {
-  const SourceLocation place{"gaitlab new " + what};
-  if (!is_name(name, "_-") || std::isalpha(static_cast<unsigned char>(name[0])) == 0) {
-    throw InputError(place, "name " + in_quotes(name) +
-                                " is not allowed; expected letters, digits, `_` and `-`, beginning "
-                                "with a letter");
-  }
-}
-
 /// Writes a new file and returns its name.
 std::string write_new(const NewFileArguments& arguments, const std::string& text) {
   std::string file = arguments.out.value_or(arguments.name + ".yaml");
@@ -302,6 +292,15 @@ void add_out(CLI::App& command, NewFileArguments& arguments) {
 }
 
 }  // namespace
+
+void check_file_name(const std::string& what, const std::string& name) {
+  const SourceLocation place{"gaitlab new " + what};
+  if (!is_name(name, "_-") || std::isalpha(static_cast<unsigned char>(name[0])) == 0) {
+    throw InputError(place, "name " + in_quotes(name) +
+                                " is not allowed; expected letters, digits, `_` and `-`, beginning "
+                                "with a letter");
+  }
+}
 
 void add_new_files(Commands& commands, CLI::App& command) {
   add_command<NewFileArguments>(

@@ -133,7 +133,7 @@ int new_plugin(const NewPluginArguments& arguments) {
 }  // namespace
 
 void add_new(Commands& commands) {
-  CLI::App* command = commands.app.add_subcommand("new", "Write a new module, scenario or plugin.");
+  CLI::App* command = commands.app.add_subcommand("new", "Write a new module, scenario or plugin, or the bench of a servo.");
   command->require_subcommand(1);
   add_command<NewPluginArguments>(
       commands, "plugin", "Make a folder with a working plugin, its scenario and its test.", new_plugin,
@@ -144,6 +144,7 @@ void add_new(Commands& commands) {
       },
       command);
   add_new_files(commands, *command);
+  add_new_log(commands, *command);
 }
 
 }  // namespace gaitlab::app

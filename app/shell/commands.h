@@ -41,8 +41,12 @@ struct Offered {
 /// Sets the help of an option to a text, with each `{}` replaced by the command that lists offered values. Returns the option.
 CLI::Option* offering(CLI::Option* option, std::string text, const Offered& offered);
 
-/// Adds the commands `new module` and `new scenario`.
+/// Adds the commands `new module`, `new scenario` and `new bench`.
 void add_new_files(Commands& commands, CLI::App& command);
+/// Adds the command `new log`.
+void add_new_log(Commands& commands, CLI::App& command);
+/// Throws InputError for a name that cannot be that of a new file. `what`: word of the command, such as `bench`.
+void check_file_name(const std::string& what, const std::string& name);
 
 /// Adds `--joint`, which chooses the joints of the figure.
 void add_joint(CLI::App& command, std::vector<std::string>& joints);

@@ -140,6 +140,16 @@ std::string source_of(const std::vector<std::string>& own, const Node* stated, c
                            : fmt::format("chosen: {}; the rest: {}", keys, of_file);
 }
 
+/// Keys of a servo file that only move currents: another value leaves the motion of the logs as it is.
+constexpr std::array kOfCurrents{"efficiency", "stall_current"};
+
+/// True if a stated key takes the place of one that moves the joint.
+bool changes_motion(const Node& stated_by, const Node& of_file) {
+  return std::ranges::any_of(of_file.keys, [&](const auto& key) {
+    return key.first != "type" && std::ranges::count(kOfCurrents, key.first) == 0 && stated(stated_by, key.first);
+  });
+}
+
 void put(Node& map, std::size_t at, const std::string& key, Node value) {
   map.keys.emplace(map.keys.begin() + static_cast<std::ptrdiff_t>(at), key, value.place);
   map.items.insert(map.items.begin() + static_cast<std::ptrdiff_t>(at), std::move(value));
@@ -204,6 +214,9 @@ void insert(Node& map, const std::string& section, bool of_hinge, const Search& 
   text.quoted = true;
   if (source != nullptr) remove(map, source);
   put(map, map.items.size(), "source", std::move(text));
+  if (servo->identified.any() && map.find(kIdentified) == nullptr && !changes_motion(before, keys)) {
+    put(map, map.items.size(), kIdentified, servo->logs);
+  }
 }
 
 void insert_all(Node& document, bool of_hinge, const Search& search) {
@@ -232,6 +245,7 @@ std::optional<ServoFile> read_servo(const std::string& path, const SourceLocatio
   reader.text("name", servo.name, "");
   reader.text("source", servo.source, "");
   reader.list("sources", sources, "");
+  reader.group(kIdentified, servo.identified, "");
   reader.require({"name", "actuator"});
   const Node* const list = file.find("sources");
   if (list == nullptr) {
@@ -239,6 +253,8 @@ std::optional<ServoFile> read_servo(const std::string& path, const SourceLocatio
   } else if (const Node* const source = file.find("source")) {
     problems.add(source->place, "source and sources are both stated; expected one of them");
   }
+  if (const Node* const logs = file.find(kIdentified); logs != nullptr && !servo.identified.any())
+    problems.add(logs->place, "identified has no logs; expected their number, as in {logs: 8}");
   for (const char* const one : kServoSections) reader.take(one);
   reader.finish();
   if (problems.size() > before) return {};
@@ -246,6 +262,7 @@ std::optional<ServoFile> read_servo(const std::string& path, const SourceLocatio
   servo.controller = map_of(file, kServoSections[1], problems);
   if (list != nullptr) check_sources(*list, servo, problems);
   if (problems.size() > before) return {};
+  if (const Node* const logs = file.find(kIdentified)) servo.logs = *logs;
   servo.sources.assign(sources.begin(), sources.end());
   if (list != nullptr) servo.source = together(servo.sources);
   return servo;

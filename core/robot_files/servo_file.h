@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/names.h"
+#include "core/robot_files/identification.h"
 #include "core/settings/node.h"
 
 namespace gaitlab {
@@ -34,6 +35,8 @@ struct ServoFile {
   std::string source;                ///< of all numbers: the key `source`, or a sentence of `sources`
   std::vector<ServoSource> sources;  ///< by number; empty if the file has the key `source` instead
   Node actuator, controller;         ///< maps; `controller` is null if the file has none
+  Identification identified;         ///< logs to which the numbers were fitted
+  Node logs;                         ///< the same as a map; null without them
 
   /// Source of a number; nullptr if the file states none by number.
   [[nodiscard]] const ServoSource* source_of(const std::string& key) const;
@@ -45,6 +48,7 @@ std::optional<ServoFile> read_servo(const std::string& path, const SourceLocatio
 
 /// Replaces the key `model` of the maps `actuator` and `controller` in a module type, its hinges, or a scenario by the keys of
 /// the servo file of that name. A key that the map states itself remains, and `source` names the keys that came from the file.
+/// A map without such a key also gets the section `identified` of the file, except for keys that leave the motion as it is.
 /// The name is that of a file in the folder `servos` beside the document or with the data of the program, or a path from
 /// `folder`. Adds problems at the places of the names and in the servo files, and one of `notes` for each
 /// file that hides a shipped one.

@@ -31,7 +31,7 @@ std::vector<std::string> figures_of(const Node* map) {
   std::vector<std::string> keys;
   if (map == nullptr) return keys;
   for (const auto& [key, place] : map->keys) {
-    if (key != "type" && key != "source") keys.push_back(key);
+    if (key != "type" && key != "source" && key != kIdentified) keys.push_back(key);
   }
   return keys;
 }
@@ -246,6 +246,21 @@ std::vector<std::string> TypePresets::sources(const Entry& entry, const std::vec
   return sources;
 }
 
+Identification TypePresets::identification(std::size_t joint) const {
+  Identification made;
+  if (kinds_.empty()) return made;
+  const Maps& maps = kinds_[of_joint_.empty() ? 0 : of_joint_[joint]];
+  const Node* const of_hinge = maps.of_hinge == nullptr ? nullptr : maps.of_hinge->find(kIdentified);
+  if (of_hinge == nullptr && !figures_of(maps.of_hinge).empty()) return made;
+  const Node* const of_type = maps.of_type == nullptr ? nullptr : maps.of_type->find(kIdentified);
+  const Node* const stated = of_hinge != nullptr ? of_hinge : of_type;
+  if (stated == nullptr) return made;
+  Problems none;  // those of its values are reported where the module type is read
+  Reader reader(*stated, kIdentified, none, nullptr);
+  made.fields(reader);
+  return made;
+}
+
 void TypePresets::refuse(const SourceLocation& place, Problems& problems) const {
   Problem& problem = problems.add(place, fmt::format("{}; choose one: add {}: {{type: ...}}", why_, word(kind_)));
   for (const Node* map : said_) problem.notes.emplace_back(map->place, "one is here");
@@ -257,6 +272,7 @@ void TypePresets::read(const Entry& entry, const Maps& maps, void* settings, Joi
     Reader preset(map, word(kind_), problems, joints);
     if (whole) preset.take("type");
     preset.take("source");
+    preset.take(kIdentified);
     visit_settings(entry, settings, preset);
     preset.finish();
   };

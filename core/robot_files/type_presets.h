@@ -5,6 +5,7 @@
 
 #include "core/model/robot.h"
 #include "core/plugin/catalog.h"
+#include "core/robot_files/identification.h"
 #include "core/settings/reader.h"
 
 namespace gaitlab {
@@ -57,6 +58,8 @@ class TypePresets {
   /// a motor use; a hinge's map without `source` uses the source of its type. Values that are defaults of the plugin count as a
   /// source. An empty text means that some values have no source.
   [[nodiscard]] std::vector<std::string> sources(const Entry& entry, const std::vector<std::string>& but) const;
+  /// Logs of the presets of a joint with a motor; none if a key of its hinge replaces a number of the type.
+  [[nodiscard]] Identification identification(std::size_t joint) const;
   /// Adds a problem at `place`, which states that the module types disagree, with notes at their settings.
   void refuse(const SourceLocation& place, Problems& problems) const;
   /// Writes the presets into the default settings of `entry`, if the presets are for this type of plugin. Errors are added to

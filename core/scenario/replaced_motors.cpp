@@ -25,7 +25,7 @@ ReplacedMotors::ReplacedMotors(const Node& root, const Scenario& scenario, const
     if (one.value != 0) assumed.push_back(one.key);
   }
   for (const auto& [key, place] : section == nullptr ? std::vector<std::pair<std::string, SourceLocation>>() : section->keys)
-    given_ = given_ || (key != "type" && key != "source");
+    given_ = given_ || (key != "type" && key != "source" && key != kIdentified);
   if (!source_.empty() && !assumed.empty()) source_ = with_defaults(assumed, entry, without_defaults(source_, entry));
 }
 

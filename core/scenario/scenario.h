@@ -14,6 +14,7 @@
 #include "core/model/supply.h"
 #include "core/names.h"
 #include "core/plugin/plugin_instance.h"
+#include "core/robot_files/identification.h"
 #include "core/scenario/as_built.h"
 #include "core/scenario/measured_section.h"
 #include "core/settings/joint_patterns.h"
@@ -180,6 +181,7 @@ struct Scenario {
   MeasuredSettings measured;       ///< log of the real robot
   std::vector<double> duty_volts;  ///< voltage of duty 1 by joint, if it is not that of the supply or the motors; not a setting
   std::string actuator_source;     ///< origin of the values in the section `actuator`; empty if not stated
+  Identification identified;       ///< logs of the motors of that section
   double control_period = 0.015;   ///< s
   double cpg_step = 0;             ///< sub-step of the CPG's RK4 integration, s
   double duration = 0;             ///< s

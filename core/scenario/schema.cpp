@@ -210,10 +210,12 @@ std::string module_schema(const Catalog& catalog) {
   Json type = module_type_schema();
   std::string source;
   std::string model;
+  Identification identified;
   for (PluginFields* plugin : {&sections.actuator, &sections.controller}) {
     plugin->host = [&](Fields& f) {
       f.text("model", model, "Name of a servo (gaitlab list servo), whose keys stand for those that are not stated.");
       f.text("source", source, "Origin of the values.");
+      f.group(kIdentified, identified, "Logs to which the values were fitted; a servo file states them.");
     };
     const PluginKind& kind = describe(plugin->kind);
     Json& section = type["properties"][kind.section];

@@ -283,10 +283,13 @@ SectionFields::SectionFields(Scenario& s, const Catalog* catalog, const Problems
   };
   actuator.host = [this, model, &s](Fields& f) {
     model(f);
-    if (writing && s.actuator_source.empty()) return;
-    f.text("source", s.actuator_source,
-           "Source of the values that this section gives instead of the module types', such as a data sheet; the verdict cites "
-           "it. Without a source they count as chosen.");
+    if (!writing || !s.actuator_source.empty()) {
+      f.text("source", s.actuator_source,
+             "Source of the values that this section gives instead of the module types', such as a data sheet; the verdict "
+             "cites it. Without a source they count as chosen.");
+    }
+    if (!writing || s.identified.any())
+      f.group(kIdentified, s.identified, "Logs to which these values were fitted; a servo file states them.");
   };
   controller.host = [model, &s](Fields& f) {
     model(f);

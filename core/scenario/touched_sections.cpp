@@ -45,6 +45,7 @@ void TouchedSections::restart(Scenario& scenario) const {
   if (has("actuator")) {
     scenario.actuator = fresh.actuator;
     scenario.actuator_source = fresh.actuator_source;
+    scenario.identified = fresh.identified;
   }
   if (has("controller")) {
     scenario.controller = fresh.controller;

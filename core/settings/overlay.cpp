@@ -236,9 +236,12 @@ std::string drop_source(Node& root, const std::vector<std::string>& sets) {
   const auto other = std::ranges::find_if(sets, figure);
   const auto section = std::ranges::find(root.keys, "actuator", [](const auto& key) { return key.first; });
   if (other == sets.end() || section == root.keys.end()) return "";
-  const std::string dropped =
-      take_out(root.items[static_cast<std::size_t>(section - root.keys.begin())], "",
-               [](const std::string& key, const Node& value) { return key == "source" && !is_set(value); });
+  Node& actuator = root.items[static_cast<std::size_t>(section - root.keys.begin())];
+  const auto stated = [](const std::string& name) {
+    return [name](const std::string& key, const Node& value) { return key == name && !is_set(value); };
+  };
+  take_out(actuator, "", stated("identified"));  // not mentioned, because it is a part of the source
+  const std::string dropped = take_out(actuator, "", stated("source"));
   return dropped.empty() ? "" : fmt::format("actuator: dropped source, which does not cover {}{}", kOption, clipped(*other));
 }
 

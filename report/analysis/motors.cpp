@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <string_view>
 
@@ -101,6 +102,23 @@ std::string motor_source(const Scenario& scenario) {
   return !chosen(given) && chosen(stated) ? stated + "; " + given : fmt::format("{}; the rest: {}", given, stated);
 }
 
+std::vector<Identification> identifications(const Scenario& scenario) {
+  std::vector<Identification> all(scenario.robot->joints.size());
+  if (scenario.actuator.entry == nullptr) return all;
+  const TypePresets types(Kind::actuator, scenario.robot.get(), *scenario.module_documents);
+  const bool presets = !scenario.identified.any() && types.holds(*scenario.actuator.entry);
+  for (std::size_t j = 0; j < all.size(); ++j) {
+    if (scenario.robot->joints[j].driven()) all[j] = presets ? types.identification(j) : scenario.identified;
+  }
+  if (presets && std::ranges::any_of(all, &Identification::any)) {
+    constexpr std::array kKept{"u_max", "i_max", "efficiency", "stall_current"};
+    const std::vector<std::string> changed = changed_figures(scenario, types);
+    const auto kept = [&](const std::string& key) { return std::ranges::count(kKept, key) > 0; };
+    if (!std::ranges::all_of(changed, kept)) all.assign(all.size(), {});
+  }
+  return all;
+}
+
 std::string silent_defaults(const Scenario& scenario) {
   if (scenario.actuator.entry == nullptr || scenario.robot->joints.empty()) return "";
   const SettingsNumbers settings(scenario.actuator);
@@ -135,10 +153,17 @@ bool chosen(const std::string& source) {
   return source.empty() || std::search(source.begin(), source.end(), kWord.begin(), kWord.end(), alike) != source.end();
 }
 
-std::string figures_sentence(const std::vector<std::string>& motors, const std::vector<std::string>& docks) {
+std::string figures_sentence(const std::vector<std::string>& motors, const std::vector<std::string>& docks,
+                             const std::vector<std::string>& identified, bool all) {
   std::string of_docks = docks.empty() ? "" : "docks: " + in_few_words(docks);
   if (motors.empty()) return of_docks;
-  return "motors: " + in_few_words(motors) + (docks.empty() ? "" : "; " + of_docks);
+  std::string of_motors = fmt::format("{}", fmt::join(identified, ", "));
+  if (identified.empty()) {
+    of_motors = in_few_words(motors);
+  } else if (!all || std::ranges::any_of(motors, chosen)) {
+    of_motors += "; the rest: " + in_few_words(motors);
+  }
+  return "motors: " + of_motors + (docks.empty() ? "" : "; " + of_docks);
 }
 
 }  // namespace gaitlab::report

@@ -22,6 +22,10 @@ std::vector<double> rest_torques(const Scenario& scenario);
 /// an actuator.
 std::string motor_source(const Scenario& scenario);
 
+/// Logs of the numbers of every joint's motor; Identification::any() is false for a joint without a motor, without such logs,
+/// or with a number that replaces one of the servo file, except for limits and numbers that only move currents.
+std::vector<Identification> identifications(const Scenario& scenario);
+
 /// Data of the motors that neither the scenario nor a module type states, although they are not 0 in a real motor: `by default:
 /// efficiency 0.7, rotor_inertia 0`. Unlike other defaults they do not count as chosen. Empty if all are stated.
 std::string silent_defaults(const Scenario& scenario);
@@ -37,7 +41,9 @@ bool chosen(const std::string& source);
 inline const std::string kNoSource = "chosen: no source stated";
 
 /// Sentence on the sources of a verdict: `motors: maxon catalogue 118752; docks: chosen figures`. `motors` and `docks` are the
-/// sources of the values that checks use, empty if no check uses any.
-std::string figures_sentence(const std::vector<std::string>& motors, const std::vector<std::string>& docks);
+/// sources of the values that checks use, empty if no check uses any. `identified`: short texts of identifications, which
+/// precede the sources of the motors; with `all`, every motor has one, and only chosen sources follow.
+std::string figures_sentence(const std::vector<std::string>& motors, const std::vector<std::string>& docks,
+                             const std::vector<std::string>& identified = {}, bool all = false);
 
 }  // namespace gaitlab::report

@@ -132,6 +132,7 @@ COMMANDS = {
     "new module": "new module mine",
     "new module --from": "new module mine --from from.urdf",
     "new scenario": "new scenario mine --module modules/mtran.yaml",
+    "new log": "new log mine",
 }
 # Commands that intentionally replace files: in the folder of a study or a run, or the figure of a recipe.
 RENEWED = {"study report", "sweep --out", "shard", "study merge", "report of two", "figure"}

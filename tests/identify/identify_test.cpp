@@ -120,6 +120,13 @@ TEST_F(Bench, FindsTheNumbersOfItsOwnLogs) {
   text.replace(at, text.find('\n', at) - at, "actuator: {type: servo, model: own.yaml}");
   folder_.write("bench.yaml", text);
   const std::vector<BenchLog> with = bench({"logs.csv"});
+  const Identification& stated = with[0].scenario.identified;
+  EXPECT_EQ(stated.logs, 2);
+  EXPECT_EQ(stated.held_out_logs, 1);
+  EXPECT_NEAR(stated.held_out, *mean_error(logs, made.after, Logged::angle, true), 0.005 * stated.held_out) << "three digits";
+  EXPECT_GE(stated.speed, made.after[1].largest_speed);
+  EXPECT_GE(stated.torque, made.after[1].largest_torque);
+  EXPECT_LT(stated.torque, 1.01 * std::max(made.after[0].largest_torque, made.after[1].largest_torque));
   const std::vector<Key> own = fitted_keys(with[0].scenario, {"actuator.stall_torque"});
   std::atomic<bool> stop = false;
   ErrorModels models(with, own, {Logged::angle}, 1, stop);

@@ -153,6 +153,21 @@ TEST(ServoFiles, ExplainIsATableOfNumbersWithTheirSources) {
   EXPECT_TRUE(contains(text, "0.0156 N m ")) << "3 % of 0.52 N m";
 }
 
+/// `gaitlab list servo` prints the origin of each servo's numbers, and their error.
+TEST(ServoFiles, ListsHaveTheOriginOfTheNumbers) {
+  std::string list;  // without the line breaks of a terminal
+  for (const char c : gaitlab("list servo", "/tmp").out) list += c == '\n' ? ' ' : c;
+  for (const char* const part :
+       {"Dynamixel AX-12: data sheet with usual losses; the errors of three such servos are 42, 65 and 81 mrad",
+        "Dynamixel MX-64: identified, error not stated: Rhoban/bam, commit 1b5a1cee, model M1",
+        "Dynamixel XL330-M288-T, fitted: identified from 8 logs of Rhoban/bam, fitted to 23.3 mrad, held-out error 39.6 mrad "
+        "on 8 "
+        "logs (45.2 mrad before the fit), speeds up to 13 rad/s, torques up to 0.866 N m"})
+    EXPECT_TRUE(contains(list, part)) << list;
+  const std::string text = gaitlab("explain servo xl330-m288-fitted", "/tmp").out;
+  EXPECT_TRUE(contains(text, "\nlogs\n  identified from 8 logs of Rhoban/bam")) << text;
+}
+
 TEST(ServoFiles, EveryNumberHasOneSource) {
   const Folder folder;
   std::filesystem::create_directory(folder / "servos");

@@ -32,6 +32,7 @@ struct CheckedRun {
   Motors motors = report::motors(scenario, 0);
   bool has_dc_motors = report::dc_motors(scenario);
   std::string motor_source = report::motor_source(scenario);
+  std::vector<Identification> identifications = report::identifications(scenario);  ///< by joint
   std::string motor_defaults = report::silent_defaults(scenario);
   std::optional<Fall> fall = summary.fall ? *summary.fall : report::fall(scenario, record);
   Evidence evidence = report::evidence(scenario, record, summary);

@@ -11,12 +11,13 @@ std::vector<CheckKind> outcome(), fall(), progress(), upright(), battery();
 std::vector<CheckKind> saturation(), envelope(), speed(), stall(), heat(), gears();
 std::vector<CheckKind> tracking(), stops(), setpoints(), collision(), docks();
 std::vector<CheckKind> in_ground(), slip(), airborne(), stability(), field();
-std::vector<CheckKind> periodic(), evidence(), torque_error(), predictable(), creep(), energy(), steps(), measured();
+std::vector<CheckKind> periodic(), evidence(), torque_error(), predictable(), creep(), energy(), steps(), measured(),
+    identified();
 
 /// The order of the verdict: by group.
 inline constexpr std::vector<CheckKind> (*kList[])() = {
     outcome, fall,     progress, upright,      battery,     saturation, envelope,  speed, stall,    heat,
     gears,   tracking, stops,    setpoints,    collision,   docks,      in_ground, slip,  airborne, stability,
-    field,   periodic, evidence, torque_error, predictable, creep,      energy,    steps, measured};
+    field,   periodic, evidence, torque_error, predictable, creep,      energy,    steps, measured, identified};
 
 }  // namespace gaitlab::report::checks

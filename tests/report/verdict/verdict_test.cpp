@@ -251,7 +251,7 @@ TEST(Verdict, IsAFileALineAndAnExitCode) {
   const auto json = nlohmann::json::parse(read(folder.path() / "bad/verdict.json"));
   EXPECT_EQ(json.at("verdict"), "infeasible");
   const auto of_a_part = [](const CheckKind& kind) { return kind.concerns != nullptr; };
-  constexpr std::size_t kOfAbsentParts = 3;  // two of a supply, one of a log
+  constexpr std::size_t kOfAbsentParts = 4;  // two of a supply, one of a log, one of identified motors
   EXPECT_EQ(json.at("checks").size() + kOfAbsentParts, check_kinds().size());
   EXPECT_EQ(std::ranges::count_if(check_kinds(), of_a_part), kOfAbsentParts);
   EXPECT_TRUE(json.at("first").at("time").is_number());

@@ -105,6 +105,17 @@ Change off_log(double share, double limit) {
   };
 }
 
+/// Motors that were fitted to logs with speeds up to 2 rad/s; the joint turns at `share` of that.
+Change of_logs(double share, bool early = false) {
+  return [=](Case& made) {
+    made.scenario.identified = {.logs = 8, .speed = 2};
+    for (std::size_t j = 0; j < made.scenario.robot->joints.size(); ++j) {
+      for (std::size_t k = 0; k <= made.last_tick(); ++k) made.tick(k, j, kSpeedPeak) = 0;
+    }
+    made.tick(early ? kEarly : made.last_tick(), kJoint, kSpeedPeak) = 2 * share;
+  };
+}
+
 std::vector<Expected> table() {
   const double no_load = 7.4 / (0.00395 * 594);          // speed without load u_max / (Ks n), rad/s
   const double stall = 0.7 * 0.00395 * 594 * 7.4 / 4.3;  // eta Kt n u_max / R, N m
@@ -171,6 +182,7 @@ std::vector<Expected> table() {
       {"coarse", [](double v) { return [v](Case& made) { made.record.tally.coarse = v * made.record.simulated; }; }, 0.1, 0.1},
       {"law", [](double v) { return [v](Case& made) { made.record.tally.off = v; }; }, 0, 0},
       {"measured", [](double v) { return off_log(v, 0); }, 0.2, 0.2},
+      {"identified", [](double v) { return of_logs(v); }, 1, 1, [](double v) { return of_logs(v, true); }},
   };
   for (const auto& [id, column] : {std::pair{"voltage", kVoltageLimited}, {"current", kCurrentLimited}}) {
     for (Expected& row : of_saturation(id, column)) rows.push_back(std::move(row));
@@ -255,9 +267,9 @@ TEST(CheckTable, MeasuredAlsoComparesTheTimeAtTheLimit) {
 
 /// Checks have the documented spans. The span of `speed` depends on the limit that decides.
 TEST(CheckTable, HasItsSpans) {
-  const std::set<std::string> window{"progress", "voltage",         "current",  "envelope", "speed",    "stall",
-                                     "heat",     "gear_continuous", "tracking", "slip",     "airborne", "stability",
-                                     "periodic", "evidence",        "creep",    "battery"};
+  const std::set<std::string> window{"progress", "voltage",         "current",  "envelope", "speed",     "stall",
+                                     "heat",     "gear_continuous", "tracking", "slip",     "airborne",  "stability",
+                                     "periodic", "evidence",        "creep",    "battery",  "identified"};
   for (const CheckKind& kind : check_kinds())
     EXPECT_EQ(kind.span, window.contains(kind.id) ? CheckSpan::window : CheckSpan::whole_run) << kind.id;
 }
