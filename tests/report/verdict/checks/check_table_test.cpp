@@ -112,7 +112,7 @@ Change of_logs(double share, bool early = false) {
     for (std::size_t j = 0; j < made.scenario.robot->joints.size(); ++j) {
       for (std::size_t k = 0; k <= made.last_tick(); ++k) made.tick(k, j, kSpeedPeak) = 0;
     }
-    made.tick(early ? kEarly : made.last_tick(), kJoint, kSpeedPeak) = 2 * share;
+    made.tick(early ? kEarly : made.last_tick(), kChanged, kSpeedPeak) = 2 * share;
   };
 }
 
