@@ -159,7 +159,7 @@ TEST_F(Trajectories, LogsOfThemHaveTheNumbersOfTheServo) {
   for (const auto& [key, value] : numbers) asked.push_back("actuator." + key);
   const std::vector<Key> keys = fitted_keys(logs[0].scenario, asked);
   std::atomic<bool> stop = false;
-  ErrorModels models(logs, keys, Logged::angle, 2, stop);
+  ErrorModels models(logs, keys, {Logged::angle}, 2, stop);
   const Identified made = identify::identify(models, {.seed = 1, .choose = false, .drawn = 0});
   // Ticks are 1e-3 of the motion, and errors of ten thousand rows average out: the differences are 0.02 % for line and inertia
   // and 0.3 % for frictions, which move the arm a tenth as much. The tolerance is three times that.

@@ -14,11 +14,8 @@
 namespace gaitlab::test {
 namespace {
 
-constexpr double kInertia = 1.0 / 3;
-constexpr double kWeight = 9.81 / 2;  // moment of the weight of the horizontal rod, N m
-
 /// A rod on a motor. Without a gain, a motor of type torque gives only friction.
-struct Rod {
+struct DrivenRod {
   std::string engine, motor;
   std::string controller = "{type: pid, unit: N m, Kp: 0, Kd: 0}";
   std::string physics = "accuracy: 1e-3", gravity = "[0, 0, -9.81]";
@@ -56,17 +53,17 @@ TEST_P(Friction, StopsARotorAtTheTimeOfTheClosedForm) {
   constexpr double kDry = 0.3;
   constexpr double kViscous = 0.2;
   constexpr double kSpeed = 2;
-  Rod rod{GetParam(), fmt::format("{{type: torque, dry_friction: {}, viscous_friction: {}}}", kDry, kViscous)};
+  DrivenRod rod{GetParam(), fmt::format("{{type: torque, dry_friction: {}, viscous_friction: {}}}", kDry, kViscous)};
   rod.gravity = "[0, 0, 0]";
   rod.speed = kSpeed;
   const Recording record = run(rod.read());
   const Table table(record.trace);
-  const double tau = kInertia / kViscous;
+  const double tau = kRodInertia / kViscous;
   const double time = tau * std::log1p(kViscous * kSpeed / kDry);
   const double angle = tau * kSpeed - kDry / kViscous * time;
   const std::size_t rest = first_at_rest(record);
   ASSERT_LT(rest, record.trace.rows());
-  const double left = kInertia * table.at(rest - 1, "joint.0.speed") / kDry;  // s, to a relative error of 0.7 % of 5 ms
+  const double left = kRodInertia * table.at(rest - 1, "joint.0.speed") / kDry;  // s, to a relative error of 0.7 % of 5 ms
   validate({"closed.friction.time." + GetParam(), GetParam() + ", accuracy 1e-3: rotor under dry and viscous friction, stop",
             "I / c ln(1 + c w / F)", "s"},
            table.at(rest - 1, "t") + left, time, 1e-4 * time, "required by the issue: 1e-4");
@@ -76,14 +73,14 @@ TEST_P(Friction, StopsARotorAtTheTimeOfTheClosedForm) {
     EXPECT_EQ(table.at(row, "joint.0.speed"), 0);
     EXPECT_EQ(table.at(row, "joint.0.torque"), 0) << "nothing to hold";
   }
-  EXPECT_NEAR(record.ledger.dry, kInertia / 2 * kSpeed * kSpeed, 1e-3 * kInertia / 2 * kSpeed * kSpeed);
+  EXPECT_NEAR(record.ledger.dry, kRodInertia / 2 * kSpeed * kSpeed, 1e-3 * kRodInertia / 2 * kSpeed * kSpeed);
   EXPECT_EQ(record.joints[0].dry, record.ledger.dry);
 }
 
 /// A half swing loses F (|q1| + |q2|) of the pendulum's energy; it rests where friction holds the weight.
 TEST_P(Friction, StopsAPendulumExactly) {
   constexpr double kDry = 0.3;
-  Rod rod{GetParam(), fmt::format("{{type: torque, dry_friction: {}}}", kDry)};
+  DrivenRod rod{GetParam(), fmt::format("{{type: torque, dry_friction: {}}}", kDry)};
   rod.angle = 1;
   rod.duration = 10;
   const Recording record = run(rod.read());
@@ -96,7 +93,7 @@ TEST_P(Friction, StopsAPendulumExactly) {
     // The speed is linear near the turn on either side of it, with accelerations that differ by friction.
     const double q = table.at(row - 1, "joint.0.angle");
     const double w = table.at(row - 1, "joint.0.speed");
-    const double a = (-kWeight * std::sin(q) - std::copysign(kDry, w)) / kInertia;
+    const double a = (-kRodWeight * std::sin(q) - std::copysign(kDry, w)) / kRodInertia;
     turns.push_back(q - w * w / (2 * a));
   }
   ASSERT_EQ(turns.size(), 7U);
@@ -104,7 +101,7 @@ TEST_P(Friction, StopsAPendulumExactly) {
   double largest = 0;
   for (const double turn : turns) {
     double next = last;  // (m g l / 2) (cos q2 - cos q1) = F (|q1| + |q2|)
-    for (int i = 0; i < 60; ++i) next = std::acos(std::cos(last) + kDry / kWeight * (last + next));
+    for (int i = 0; i < 60; ++i) next = std::acos(std::cos(last) + kDry / kRodWeight * (last + next));
     largest = std::max(largest, std::abs(std::abs(turn) - next));
     last = next;
   }
@@ -113,9 +110,9 @@ TEST_P(Friction, StopsAPendulumExactly) {
                   "balance of energy", "rad"},
                  largest, 2e-4, "1e-3 of the torque is 1e-3 of the friction's work on a swing of 0.1 rad");
   const double q = end(record, "joint.0.angle");
-  EXPECT_LT(std::abs(kWeight * std::sin(q)), kDry);
+  EXPECT_LT(std::abs(kRodWeight * std::sin(q)), kDry);
   EXPECT_EQ(end(record, "joint.0.speed"), 0);
-  EXPECT_NEAR(end(record, "joint.0.torque"), kWeight * std::sin(q), 1e-12) << "holds the weight, no more and no less";
+  EXPECT_NEAR(end(record, "joint.0.torque"), kRodWeight * std::sin(q), 1e-12) << "holds the weight, no more and no less";
   EXPECT_EQ(end(record, "joint.0.friction"), end(record, "joint.0.torque"));
   EXPECT_LT(std::abs(record.ledger.residual()), 1e-3 * record.ledger.dry);
 }
@@ -123,7 +120,7 @@ TEST_P(Friction, StopsAPendulumExactly) {
 /// A torque that rises slowly moves the joint when it exceeds the dry friction.
 TEST_P(Friction, BreaksAwayAtTheDryFriction) {
   constexpr double kDry = 0.3;
-  Rod rod{GetParam(), fmt::format("{{type: torque, dry_friction: {}}}", kDry)};
+  DrivenRod rod{GetParam(), fmt::format("{{type: torque, dry_friction: {}}}", kDry)};
   rod.gravity = "[0, 0, 0]";
   rod.controller = "{type: pid, unit: N m, Kp: 1, Kd: 0, period: 0.001}";
   rod.more = "cpg: {type: equations, model: {states: {x: 0.1}, output: x}}";  // 0.1 N m/s
@@ -173,7 +170,7 @@ trace: {{period: {}, columns: [joint.*]}}
 
 /// A weight that friction can hold stays where it is, for any time; a heavier one does not.
 TEST_P(Friction, HoldsAnArmWithoutCreep) {
-  Rod rod{GetParam(), "{type: dc_motor, dry_friction: 1.5}"};
+  DrivenRod rod{GetParam(), "{type: dc_motor, dry_friction: 1.5}"};
   rod.controller = "{type: pid, Kp: 5, Kd: 0}";
   rod.angle = 0.3;  // 1.4496 N m
   rod.physics = "accuracy: 0.01";
@@ -181,7 +178,7 @@ TEST_P(Friction, HoldsAnArmWithoutCreep) {
   const Recording held = run(rod.read());
   EXPECT_EQ(end(held, "joint.0.angle"), 0.3);
   EXPECT_EQ(held.joints[0].speed_peak, 0);
-  EXPECT_NEAR(end(held, "joint.0.torque"), kWeight * std::sin(0.3), 1e-12);
+  EXPECT_NEAR(end(held, "joint.0.torque"), kRodWeight * std::sin(0.3), 1e-12);
   rod.angle = 0.32;  // 1.543 N m
   rod.duration = 1;
   EXPECT_LT(end(run(rod.read()), "joint.0.angle"), 0.3199) << "sinks until the motor helps";
@@ -189,7 +186,7 @@ TEST_P(Friction, HoldsAnArmWithoutCreep) {
 
 /// A motor whose circuit is open has friction left.
 TEST_P(Friction, RemainsWithoutACircuit) {
-  Rod rod{GetParam(), "{type: dc_motor, dry_friction: 0.3}"};
+  DrivenRod rod{GetParam(), "{type: dc_motor, dry_friction: 0.3}"};
   rod.controller = "{type: pid}";
   rod.angle = 1;
   rod.duration = 12;
@@ -202,7 +199,7 @@ TEST_P(Friction, RemainsWithoutACircuit) {
 
 /// Explicit methods have no jump: the rod moves as with the exact law, and creeps where it should rest.
 TEST_P(Friction, CreepsUnderExplicitMethods) {
-  Rod rod{GetParam(), "{type: torque, dry_friction: 0.3, viscous_friction: 0.1}"};
+  DrivenRod rod{GetParam(), "{type: torque, dry_friction: 0.3, viscous_friction: 0.1}"};
   rod.angle = 1;
   rod.duration = 1.2;
   const double exact = end(run(rod.read()), "joint.0.angle");
@@ -214,7 +211,7 @@ TEST_P(Friction, CreepsUnderExplicitMethods) {
 
 /// A joint that creeps loses as much as its weight gives.
 TEST_P(Friction, TheLedgerHasTheWorkOfACreep) {
-  Rod rod{GetParam(), "{type: torque, dry_friction: 2}"};
+  DrivenRod rod{GetParam(), "{type: torque, dry_friction: 2}"};
   rod.angle = 0.35;  // 1.68 N m
   rod.physics = "integrator: rk4, step: 1e-4";
   rod.duration = 1;
@@ -230,13 +227,13 @@ TEST_P(Friction, TheLedgerHasTheWorkOfACreep) {
 TEST_P(Friction, BreaksAwayAtTheBoundsOfTheGear) {
   constexpr double kLoad = 0.25;  // eta = 0.6
   constexpr double kDry = 0.1;
-  Rod rod{GetParam(),
-          "{type: servo, voltage: 1, stall_torque: 3, no_load_speed: 5, load_friction: 0.25, dry_friction: 0.1, "
-          "viscous_friction: 0, rotor_inertia: 0}"};
+  DrivenRod rod{GetParam(),
+                "{type: servo, voltage: 1, stall_torque: 3, no_load_speed: 5, load_friction: 0.25, dry_friction: 0.1, "
+                "viscous_friction: 0, rotor_inertia: 0}"};
   rod.controller = "{type: pid, Kp: 1, Kd: 0, period: 0.001}";
   rod.row = 0.001;
   rod.angle = 0.1;  // 0.4897 N m of weight, which the motor holds up
-  const double weight = kWeight * std::sin(rod.angle);
+  const double weight = kRodWeight * std::sin(rod.angle);
   const double eta = (1 - kLoad) / (1 + kLoad);
   const auto breaks = [&](double rate) {
     rod.duration = 4;
@@ -258,7 +255,7 @@ TEST_P(Friction, BreaksAwayAtTheBoundsOfTheGear) {
 /// Bullet's own solver holds a joint, and the rows show what it holds.
 TEST(FrictionInBulletsSolver, HoldsAnArm) {
   if (catalog().engine("bullet") == nullptr) GTEST_SKIP() << "built without Bullet";
-  Rod rod{"bullet", "{type: torque, dry_friction: 2}"};
+  DrivenRod rod{"bullet", "{type: torque, dry_friction: 2}"};
   rod.angle = 0.3;
   rod.physics = "step: 1e-3";
   rod.duration = 1;
@@ -266,7 +263,7 @@ TEST(FrictionInBulletsSolver, HoldsAnArm) {
   // The row of the solver is linear below 1e-5 rad/s: at most 1e-5 rad in a second. Its iteration ends at some 1e-3 of a
   // torque.
   EXPECT_NEAR(end(record, "joint.0.angle"), 0.3, 1e-4);
-  EXPECT_NEAR(end(record, "joint.0.torque"), kWeight * std::sin(0.3), 0.01 * kWeight);
+  EXPECT_NEAR(end(record, "joint.0.torque"), kRodWeight * std::sin(0.3), 0.01 * kRodWeight);
 }
 
 /// A snapshot goes on in another simulation with the same bits: joints at rest have no memory outside the state.

@@ -13,10 +13,7 @@
 namespace gaitlab::test {
 namespace {
 
-constexpr double kInertia = 1.0 / 3;
-constexpr double kWeight = 9.81 / 2;  // moment of the weight of the horizontal rod, N m
-
-struct Rod {
+struct PassiveRod {
   std::string engine, drive, physics = "integrator: rk4, step: 1e-4", angle = "1e-3", gravity = "[0, 0, -9.81]", contact = {};
   double duration = 4;
   [[nodiscard]] Scenario read(const std::vector<std::string>& sets = {}) const {
@@ -52,13 +49,13 @@ class PassiveHinges : public EveryEngine {};
 INSTANTIATE_TEST_SUITE_P(Of, PassiveHinges, engines(), engine_name);
 
 TEST_P(PassiveHinges, ASpringMakesAPendulumFaster) {
-  const double omega = std::sqrt((kWeight + 2) / kInertia);  // 4.5514 rad/s
+  const double omega = std::sqrt((kRodWeight + 2) / kRodInertia);  // 4.5514 rad/s
   validate({"closed.passive.spring." + GetParam(), GetParam() + ", rk4 at 0.1 ms: rod on a spring of 2 N m/rad, frequency",
             "sqrt((m g l / 2 + K) / I)", "rad/s"},
-           frequency(run(Rod{GetParam(), "stiffness: 2"}.read())), omega, 1e-4,
+           frequency(run(PassiveRod{GetParam(), "stiffness: 2"}.read())), omega, 1e-4,
            "required by the issue; sin q - q at 1e-3 rad is 1e-7 of it, lines between rows 1e-6");
   for (const std::string physics : {"step: 2.5e-5"}) {
-    Rod rod{GetParam(), "stiffness: 2"};
+    PassiveRod rod{GetParam(), "stiffness: 2"};
     rod.physics = physics;
     // The methods have order 1. The energy error of semi_implicit is omega h, and implicit loses omega^2 h / 2 per second.
     EXPECT_NEAR(frequency(run(rod.read())), omega, 1e-3);
@@ -66,10 +63,10 @@ TEST_P(PassiveHinges, ASpringMakesAPendulumFaster) {
 }
 
 TEST_P(PassiveHinges, ADamperTakesItsEnergy) {
-  Rod rod{GetParam(), "stiffness: 2, damping: 0.1"};
+  PassiveRod rod{GetParam(), "stiffness: 2, damping: 0.1"};
   const Recording record = run(rod.read());
-  const double rate = 0.1 / (2 * kInertia);  // 0.15 1/s
-  const double omega = std::sqrt((kWeight + 2) / kInertia - rate * rate);
+  const double rate = 0.1 / (2 * kRodInertia);  // 0.15 1/s
+  const double omega = std::sqrt((kRodWeight + 2) / kRodInertia - rate * rate);
   const auto amplitude = [&](double t) {
     const double q = Table(record.trace)(t, "joint.0.angle");
     return std::hypot(q, (Table(record.trace)(t, "joint.0.speed") + rate * q) / omega);
@@ -81,34 +78,34 @@ TEST_P(PassiveHinges, ADamperTakesItsEnergy) {
 
 // Under a torque below the dry friction F, the rod stays where it is, in methods that are implicit; above, it falls.
 TEST_P(PassiveHinges, DryFrictionHolds) {
-  Rod rod{GetParam(), "friction: 2.4"};
+  PassiveRod rod{GetParam(), "friction: 2.4"};
   rod.angle = "0.5";  // 2.35 N m
   rod.physics = "step: auto";
   rod.duration = 5;
   const Recording held = run(rod.read());
   EXPECT_EQ(end(held, "joint.0.angle"), 0.5);
   EXPECT_EQ(end(held, "joint.0.speed"), 0);
-  EXPECT_NEAR(end(held, "joint.0.passive_torque"), kWeight * std::sin(0.5), 1e-12);
+  EXPECT_NEAR(end(held, "joint.0.passive_torque"), kRodWeight * std::sin(0.5), 1e-12);
   EXPECT_EQ(held.ledger.hinges, 0);
   rod.drive = "friction: 2.3";
   const Recording falls = run(rod.read());
-  // It swings through once, against 2.3 N m, and then rests: kWeight (cos b - cos 0.5) = 2.3 (0.5 + b) of the first swing is
+  // It swings through once, against 2.3 N m, and then rests: kRodWeight (cos b - cos 0.5) = 2.3 (0.5 + b) of the first swing is
   // the energy that friction takes.
   EXPECT_EQ(end(falls, "joint.0.speed"), 0);
   const double rest = end(falls, "joint.0.angle");
   EXPECT_LT(rest, 0.5);
   EXPECT_NEAR(falls.ledger.hinges, 2.3 * (0.5 - rest), 1e-3 * falls.ledger.hinges);
-  EXPECT_NEAR(falls.ledger.hinges, kWeight * (std::cos(rest) - std::cos(0.5)), 1e-3 * falls.ledger.hinges);
+  EXPECT_NEAR(falls.ledger.hinges, kRodWeight * (std::cos(rest) - std::cos(0.5)), 1e-3 * falls.ledger.hinges);
 }
 
 // Under an explicit method, such a rod creeps.
 TEST_P(PassiveHinges, DryFrictionHoldsButForACreep) {
-  Rod rod{GetParam(), "friction: 5, friction_speed: 0.001"};
+  PassiveRod rod{GetParam(), "friction: 5, friction_speed: 0.001"};
   rod.angle = "0.5";
   rod.physics = "integrator: rk4, step: 2.5e-5";
   rod.duration = 0.5;
   const Recording record = run(rod.read());
-  const double tau = kWeight * std::sin(end(record, "joint.0.angle"));
+  const double tau = kRodWeight * std::sin(end(record, "joint.0.angle"));
   ASSERT_LT(tau, 5);
   // The creep changes tau by 5e-4 of its value per second. The speed follows with a time constant I w_s / F, which causes an
   // error of 1e-7 of the speed.
@@ -118,7 +115,7 @@ TEST_P(PassiveHinges, DryFrictionHoldsButForACreep) {
 
 TEST_P(PassiveHinges, TheLedgerKnowsSpringDamperAndFriction) {
   const auto at = [&](const std::string& step) {
-    Rod rod{GetParam(), "stiffness: 2, rest: 0.3, damping: 0.1, friction: 0.2, friction_speed: 0.1"};
+    PassiveRod rod{GetParam(), "stiffness: 2, rest: 0.3, damping: 0.1, friction: 0.2, friction_speed: 0.1"};
     rod.angle = "1.2";
     rod.physics = "step: " + step;
     rod.duration = 2;
@@ -132,7 +129,7 @@ TEST_P(PassiveHinges, TheLedgerKnowsSpringDamperAndFriction) {
   EXPECT_EQ(fine.stops, 0);
   EXPECT_EQ(end(coarse, "energy.hinges"), coarse.ledger.hinges);
   // The work of a spring is stored energy. Without gravity, damper and friction it is the only term.
-  Rod alone{GetParam(), "stiffness: 2, rest: 0.3"};
+  PassiveRod alone{GetParam(), "stiffness: 2, rest: 0.3"};
   alone.gravity = "[0, 0, 0]";
   alone.angle = "1.2";
   const Recording free = run(alone.read());
@@ -144,7 +141,7 @@ TEST_P(PassiveHinges, TheLedgerKnowsSpringDamperAndFriction) {
 
 // A stiff spring or steep friction limits the step of an explicit method, and the error message contains the joint.
 TEST(PassiveHinge, SetsTheLargestExplicitStep) {
-  Rod stiff{catalog().engines().front(), "stiffness: 1000, damping: 20"};
+  PassiveRod stiff{catalog().engines().front(), "stiffness: 1000, damping: 20"};
   const auto error = [&](const std::string& step) {
     stiff.physics = "integrator: rk4, step: " + step;
     return message_of([&] { run(stiff.read({"duration=0.1", "trace.period=0.1"})); });
@@ -157,12 +154,12 @@ TEST(PassiveHinge, SetsTheLargestExplicitStep) {
 TEST(PassiveHinge, TheSolverHasItsRow) {
   const auto engines = catalog().engines();
   if (std::ranges::find(engines, "bullet") == engines.end()) GTEST_SKIP() << "built without Bullet";
-  Rod rod{"bullet", "stiffness: 2, damping: 0.1, friction: 0.05, friction_speed: 0.05"};
+  PassiveRod rod{"bullet", "stiffness: 2, damping: 0.1, friction: 0.05, friction_speed: 0.05"};
   rod.contact = ", law: bullet";
   rod.angle = "1";
   rod.physics = "step: 1e-4";
   rod.duration = 1;
-  Rod other = rod;
+  PassiveRod other = rod;
   other.contact = "";
   other.physics = "integrator: rk4, step: 1e-4";
   const Recording solved = run(rod.read());
@@ -176,13 +173,13 @@ TEST(PassiveHinge, TheSolverHasItsRow) {
 TEST(PassiveHinge, TheSolverKeepsDryFrictionAtSpeed) {
   const auto engines = catalog().engines();
   if (std::ranges::find(engines, "bullet") == engines.end()) GTEST_SKIP() << "built without Bullet";
-  Rod rod{"bullet", "friction: 2, friction_speed: 0.1"};
+  PassiveRod rod{"bullet", "friction: 2, friction_speed: 0.1"};
   rod.contact = ", law: bullet";
   rod.gravity = "[0, 0, 0]";
   rod.physics = "step: 1e-3";
   rod.duration = 0.1;
-  const double w = 3 - 2 * 0.1 / kInertia;         // 2.4 rad/s
-  const double lost = kInertia / 2 * (9 - w * w);  // 0.54 J
+  const double w = 3 - 2 * 0.1 / kRodInertia;         // 2.4 rad/s
+  const double lost = kRodInertia / 2 * (9 - w * w);  // 0.54 J
   const double rounding =
       100 * 32 * std::numeric_limits<double>::epsilon();  // 100 steps of about ten operations with values of 3 rad/s
   for (const std::string way : {"", "-"}) {
@@ -195,7 +192,7 @@ TEST(PassiveHinge, TheSolverKeepsDryFrictionAtSpeed) {
   rod.drive = "friction: 2000, friction_speed: 0.1";
   const Recording stopped = run(rod.read({"initial.speeds=[3]"}));
   EXPECT_LT(std::abs(end(stopped, "joint.0.speed")), 1e-12);
-  EXPECT_NEAR(end(stopped, "energy.hinges"), kInertia / 2 * 9, rounding);
+  EXPECT_NEAR(end(stopped, "energy.hinges"), kRodInertia / 2 * 9, rounding);
 }
 
 // Rollouts with different springs in the lanes of one simulation have the same bits as each rollout alone.
@@ -204,7 +201,8 @@ TEST(PassiveHinge, LanesDoNotMeet) {
   for (const std::size_t width : widths) {
     std::vector<Scenario> lanes;
     for (std::size_t l = 0; l < width; ++l) {
-      Rod rod{"articulated", fmt::format("stiffness: {}, damping: 0.{}, friction: 0.1, friction_speed: 0.{}", l, l + 1, l + 1)};
+      PassiveRod rod{"articulated",
+                     fmt::format("stiffness: {}, damping: 0.{}, friction: 0.1, friction_speed: 0.{}", l, l + 1, l + 1)};
       rod.angle = fmt::format("0.{}", l + 1);
       rod.physics = "step: auto";
       rod.duration = 0.3;
@@ -283,7 +281,7 @@ TEST(PassiveHinge, IsExported) {
 }
 
 TEST(PassiveHinge, AloneNeedsNoActuator) {
-  const Rod alone{"articulated", "stiffness: 1"};
+  const PassiveRod alone{"articulated", "stiffness: 1"};
   EXPECT_EQ(alone.read().actuator.entry, nullptr);
   const std::string text = message_of([&] { (void)alone.read({"actuator.type=dc_motor"}); });
   EXPECT_TRUE(contains(text, "an actuator is given, but every hinge of the robot has drive: none")) << text;

@@ -6,6 +6,9 @@
 
 namespace gaitlab::test {
 
+inline constexpr double kRodInertia = 1.0 / 3;  ///< about its hinge, kg m^2
+inline constexpr double kRodWeight = 9.81 / 2;  ///< moment of the weight of the horizontal rod, N m
+
 /// Header and robot of a scenario, with a body on a hinge about y. The YAML texts BODY, the keys of the body, and KEYS, further
 /// keys of the hinge, such as ", drive: none", are in its maps.
 inline std::string on_hinge(const std::string& body, const std::string& keys = {}) {
