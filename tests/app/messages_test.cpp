@@ -56,7 +56,8 @@ TEST_F(Messages, WhatIsMissing) {
   refused("export ok.yaml --to csv",
           "gaitlab export: error: FILE is missing: file to write; must not exist; expected gaitlab export SOURCE --to "
           "csv|gltf|mjcf|urdf FILE");
-  refused("new", "gaitlab new: error: a command is missing; expected gaitlab new and one of: plugin, module, scenario, bench");
+  refused("new",
+          "gaitlab new: error: a command is missing; expected gaitlab new and one of: plugin, module, scenario, bench, log");
   refused("new plugn", "gaitlab new: error: unknown command 'plugn'; did you mean 'plugin'?");
   const Result bare = call("");
   EXPECT_EQ(bare.code, 2);

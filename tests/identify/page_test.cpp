@@ -84,14 +84,14 @@ TEST_F(IdentifyPage, HasTheNumbersOfTheTerminalAndNoMarkupOfFiles) {
   for (const char* markup : {"<img", "<i>bench", "<script", "http:", "https:", "url("})
     EXPECT_FALSE(contains(std::regex_replace(page, std::regex(" xmlns=\"[^\"]*\""), ""), markup)) << markup;
   EXPECT_TRUE(contains(page, "logs: &lt;i&gt;bench&lt;/i&gt; of 3 May, CC BY 4.0"));
-  EXPECT_TRUE(contains(read(folder_ / "own.yaml"), "; <i>bench</i> of 3 May, CC BY 4.0"));
+  EXPECT_TRUE(contains(read(folder_ / "own.yaml"), "<i>bench</i> of 3 May, CC BY 4.0"));
   const auto count = [&](const std::string& part) {
     const std::regex of(part);
     return std::distance(std::sregex_iterator(page.begin(), page.end(), of), {});
   };
   EXPECT_EQ(count("<svg"), 3);
   EXPECT_EQ(count("<i>held out</i>"), 1);
-  EXPECT_EQ(count("<rect [^>]*fill=\"#E4E4E4\""), 2 * 3);  // no torque: in both panels of each log
+  EXPECT_EQ(count("<rect [^>]*fill=\"#E4E4E4\""), 2 * 2 * 3);  // no torque: in both panels of both quantities of each log
 
   EXPECT_EQ(call("two.html", " -j 2").code, 0);
   // The text of the servo has its name, which is that of its file.
@@ -106,8 +106,8 @@ TEST_F(IdentifyPage, DrawsWhatPixelsShow) {
   write_log(kPayload + ".csv", 6, 0.0005);
   const Result result = call("long.html");
   ASSERT_EQ(result.code, 0) << result.err;
-  // Each curve has at most two points per px of 374, of 12 characters; five curves in a figure.
-  constexpr std::size_t kFigure = 5 * 2 * 374 * 12;
+  // Each curve has at most two points per px of 374, of 12 characters; five curves of each of two quantities in a figure.
+  constexpr std::size_t kFigure = 2 * 5 * 2 * 374 * 12;
   EXPECT_LT(fs::file_size(folder_ / "long.html"), fs::file_size(folder_ / "short.html") + 3 * kFigure);
 }
 
