@@ -1,5 +1,8 @@
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
+#include <cmath>
+
 #include "app/shell/commands.h"
 #include "core/scenario/read_scenario.h"
 #include "kit/run_warnings.h"
@@ -66,5 +69,16 @@ void add_trust(CLI::App& command, PluginArguments& allowed) {
 }
 
 std::string not_empty(const std::string& text) { return text.empty() ? "is empty" : ""; }
+
+CLI::Validator within(double low, double high) {
+  CLI::Validator range = CLI::Range(low, high);
+  const CLI::Validator number(
+      [](std::string& text) {
+        double value = 0;
+        return CLI::detail::lexical_cast(text, value) && std::isnan(value) ? text + " is not a number" : "";
+      },
+      "");
+  return range & number;
+}
 
 }  // namespace gaitlab::app

@@ -224,6 +224,12 @@ class LogCheck {
 
 }  // namespace
 
+bool BenchLog::has_duty() const {
+  const std::unique_ptr<Actuator> motors = make_motors(scenario);
+  const auto logged = [](const MeasuredLog::OfJoint& joint) { return !joint.of(Logged::duty).empty(); };
+  return motors != nullptr && motors->dc_motors() != nullptr && std::ranges::any_of(scenario.measured.log->joints, logged);
+}
+
 std::vector<BenchLog> read_bench(const std::string& file, const std::vector<std::string>& sets,
                                  const std::vector<std::string>& logs, Catalog& catalog) {
   const std::vector<std::string> of_log = keys_of_log(read_yaml(file));
@@ -296,9 +302,11 @@ void check_fit(const std::vector<BenchLog>& logs, Logged kind, const std::vector
     for (const MeasuredLog::OfJoint& joint : joints) peaks += reversals(joint.of(kind), kOfSpan);
   }
   if (peaks < keys.size()) {
-    throw InputError(SourceLocation{"--fit"}, fmt::format("{} cannot follow from {} in the fitted logs; fit fewer keys, or log "
-                                                          "more motion",
-                                                          counted(keys.size(), "key"), counted(peaks, "reversal")));
+    throw InputError(SourceLocation{"--fit"},
+                     fmt::format("{} cannot follow from {} of the {} in the fitted logs; fit fewer keys, log more motion, or "
+                                 "compare other quantities (--of)",
+                                 counted(keys.size(), "key"), counted(peaks, "reversal"),
+                                 logged_kinds()[static_cast<std::size_t>(kind)].key));
   }
 }
 

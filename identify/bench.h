@@ -23,6 +23,8 @@ struct BenchLog {
   std::vector<std::string> of_table;  ///< those of its row in a table
   Scenario scenario;                  ///< with the bench's values of all keys
   std::unique_ptr<ScenarioTemplate> with;
+  /// True if a joint has a duty, and a motor in volts, which is compared with it.
+  [[nodiscard]] bool has_duty() const;
 };
 
 /// Reads the bench for every log. `logs` are files, and tables of logs: a CSV whose first column is `file`; a column `group`

@@ -7,6 +7,7 @@
 
 #include "core/laws/dc_motor.h"
 #include "core/scenario/built_robot.h"
+#include "core/settings/settings_numbers.h"
 #include "core/settings/wording.h"
 
 namespace gaitlab::identify {
@@ -24,16 +25,19 @@ constexpr double kReached = 0.98;  // of a limit; chosen
 struct Remedy {
   const char *one, *other, *text;
 };
+constexpr const char* kSwing = "needed: a log that swings without torque (`on` = 0)";
 constexpr Remedy kRemedies[] = {
-    {"actuator.no_load_speed", "actuator.viscous_friction", "needed: a log that swings without torque (`on` = 0)"},
-    {"actuator.stall_torque", "actuator.load_friction", "needed: a load that is lowered slowly"},
+    {"actuator.no_load_speed", "actuator.viscous_friction", kSwing},
+    {"actuator.stall_torque", "actuator.load_friction", "needed: a load lowered slowly, with another mass"},
     {"actuator.stall_torque", "actuator.no_load_speed", "needed: fast motion without a load"},
     {"actuator.dry_friction", "actuator.viscous_friction", "needed: slow and fast motion in one log"},
     {"actuator.rotor_inertia", "controller.latency", "needed: a step of the set point at a high sampling rate"},
 };
 
-const char* remedy(const std::string& one, const std::string& other) {
+/// `free`: a fitted log swings without torque.
+const char* remedy(const std::string& one, const std::string& other, bool free) {
   for (const Remedy& row : kRemedies) {
+    if (free && row.text == kSwing) continue;
     if ((row.one == one && row.other == other) || (row.one == other && row.other == one)) return row.text;
   }
   return "needed: a log that depends on one of them only";
@@ -87,10 +91,14 @@ class Findings {
     }
     for (std::size_t l = 0; l < logs_.size(); ++l) {
       for (const report::JointLogErrors& joint : made_.before[l].errors->joints) {
-        const auto& angle = joint.of(Logged::angle);
-        if (angle && angle->mae > kStrange * angle->span) {
-          add("log {}: the run of the bench is off by {:.2g} times the motion; look at unit, sign and zero of angle and goal",
-              logs_[l].name, angle->mae / angle->span);
+        for (const Logged kind : made_.kinds) {
+          const auto& error = joint.of(kind);
+          if (!error || !(error->mae > kStrange * error->span)) continue;
+          const char* const name = logged_kinds()[static_cast<std::size_t>(kind)].key;
+          add("log {}: the {} of the bench is off by {:.2g} times the span of the log; look at unit, sign and zero of {} and "
+              "goal, "
+              "and at the column `on`",
+              logs_[l].name, name, error->mae / error->span, name);
         }
       }
     }
@@ -100,8 +108,16 @@ class Findings {
     if (std::ranges::none_of(logs_, &BenchLog::held_out))
       add("no log is held out: the error is that of the logs from which the numbers were taken");
     if (made_.kinds == std::vector{Logged::angle} && fitted("actuator.stall_torque")) {
-      add("angles alone are compared: stall_torque is right only as far as the controller's gain is, because their product "
-          "moves the joint");
+      const auto bare = std::ranges::find_if_not(logs_, &BenchLog::has_duty);
+      add("angles alone are compared{}: stall_torque is right only as far as the controller's gain is, because their product "
+          "moves the joint",
+          bare == logs_.end() ? "" : fmt::format(", because log {} has no duty", bare->name));
+    }
+    const SettingsNumbers numbers(logs_[0].scenario.actuator);
+    if (const auto* supply = numbers.find("u_max"); supply != nullptr && !(supply->value[0] > 0)) {
+      add("actuator.u_max is 0: the supply is taken to be the voltage of the data sheet; state the volts of the bench, to "
+          "which "
+          "stall_torque is proportional");
     }
     if (logs_[0].efficiency && (fitted("actuator.stall_torque") || fitted("actuator.no_load_speed"))) {
       add("no log has a current: currents and their checks rest on the efficiency of the bench. Its stall current does not "
@@ -121,7 +137,8 @@ class Findings {
         if (std::abs(r) < kTrade) continue;
         const std::string& one = keys_[of[static_cast<std::size_t>(j)]].name;
         const std::string& other = keys_[of[static_cast<std::size_t>(i)]].name;
-        add("{} and {} trade (correlation {:.2f}); {}", one, other, r, remedy(one, other));
+        const bool free = std::ranges::any_of(logs_, [](const BenchLog& log) { return !log.held_out && swings_free(log); });
+        add("{} and {} trade (correlation {:.2f}); {}", one, other, r, remedy(one, other, free));
       }
     }
   }

@@ -37,6 +37,22 @@ Identification::Quantity quantity_of(Logged kind) { return static_cast<Identific
 /// The value with the digits that it has in texts.
 double in_short(double value) { return std::stod(fmt::format("{:.3g}", value)); }
 
+/// Largest speed of a joint in a log, rad/s: that of its speeds, or of its angles over intervals of at least kSpan.
+double largest_speed(const MeasuredLog& log) {
+  constexpr double kSpan = 0.025;  // s; chosen: a tick of 12 bits is then 0.06 rad/s
+  double most = 0;
+  for (const MeasuredLog::OfJoint& joint : log.joints) {
+    for (const double speed : joint.of(Logged::speed)) most = std::max(most, std::abs(speed));
+    const std::vector<double>& angle = joint.of(Logged::angle);
+    if (!joint.of(Logged::speed).empty()) continue;
+    for (std::size_t k = 0, from = 0; k < angle.size(); ++k) {
+      while (log.t[k] - log.t[from + 1] >= kSpan) ++from;
+      if (log.t[k] - log.t[from] >= kSpan) most = std::max(most, std::abs(angle[k] - angle[from]) / (log.t[k] - log.t[from]));
+    }
+  }
+  return most;
+}
+
 /// The same, but not less than the value: a run of the logs themselves stays within them.
 double not_less(double value) {
   constexpr double kHalfDigit = 0.005;  // half of the last of three digits is at most this share of the value
@@ -126,7 +142,7 @@ Identification identification(const Identified& made, const std::vector<BenchLog
     }
     ++of.logs;
     hashes += logs[l].hash;
-    of.speed = std::max(of.speed, made.after[l].largest_speed);
+    of.speed = std::max(of.speed, largest_speed(*logs[l].scenario.measured.log));
     of.torque = std::max(of.torque, made.after[l].largest_torque);
   }
   of.quantity = quantity_of(made.kinds[0]);

@@ -341,9 +341,9 @@ void add_new_files(Commands& commands, CLI::App& command) {
         bench.add_option("NAME", arguments.name, "name of the bench")->required();
         offering(bench.add_option("--servo", arguments.servo), "name that {} prints, or a servo file", {.kinds = {"servo"}})
             ->check(not_empty);
-        bench.add_option("--mass", arguments.mass, "mass of the arm, kg (default 0.3)")->check(CLI::Range(1e-6, kMost));
+        bench.add_option("--mass", arguments.mass, "mass of the arm, kg (default 0.3)")->check(within(1e-6, kMost));
         bench.add_option("--length", arguments.length, "distance of its centre from the axis, m (default 0.1)")
-            ->check(CLI::Range(1e-6, kMost));
+            ->check(within(1e-6, kMost));
         add_out(bench, arguments);
       },
       &command);

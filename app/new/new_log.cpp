@@ -103,11 +103,10 @@ void add_new_log(Commands& commands, CLI::App& command) {
                      "name that {} prints, or a servo file: goals up to its speed without load", {.kinds = {"servo"}})
                 ->check(not_empty);
         log.add_option("--speed", of.speed, "largest speed of a goal, rad/s (default 6)")
-            ->check(CLI::Range(0.1, 1000.0))
+            ->check(within(0.1, 1000))
             ->excludes(servo);
-        log.add_option("--amplitude", of.amplitude, "largest goal, rad (default 1.57)")
-            ->check(CLI::Range(0.01, std::numbers::pi));
-        log.add_option("--duration", of.duration, "duration of each motion, s (default 6)")->check(CLI::Range(1.0, 600.0));
+        log.add_option("--amplitude", of.amplitude, "largest goal, rad (default 1.57)")->check(within(0.01, std::numbers::pi));
+        log.add_option("--duration", of.duration, "duration of each motion, s (default 6)")->check(within(1, 600));
         log.add_option("--rate", of.rate, "rows per second (default 200)")->check(CLI::Range(20, 5000));
         log.add_option("--out", arguments.out, "folder for the files (default: this one)")->check(not_empty);
       },

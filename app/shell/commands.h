@@ -62,6 +62,9 @@ void add_trust(CLI::App& command, PluginArguments& allowed);
 /// the working folder.
 std::string not_empty(const std::string& text);
 
+/// Validator of numbers from `low` to `high`, which rejects NaN.
+CLI::Validator within(double low, double high);
+
 /// Throws InputError if the file exists or its folder does not.
 void check_new(const std::string& name);
 

@@ -62,12 +62,8 @@ std::vector<Logged> compared_kinds(const std::vector<std::string>& names, const 
     if (std::ranges::find(names, kind.key) != names.end()) kinds.push_back(kind.kind);
   }
   if (!names.empty()) return kinds;
-  const auto has_duty = [](const BenchLog& log) {
-    return std::ranges::any_of(log.scenario.measured.log->joints,
-                               [](const MeasuredLog::OfJoint& joint) { return !joint.of(Logged::duty).empty(); });
-  };
   kinds = {Logged::angle};
-  if (std::ranges::all_of(logs, has_duty)) kinds.push_back(Logged::duty);
+  if (std::ranges::all_of(logs, &BenchLog::has_duty)) kinds.push_back(Logged::duty);
   return kinds;
 }
 
@@ -152,7 +148,7 @@ void add_identify(Commands& commands) {
                         "logs for the held-out error alone, by a pattern of their names; once per pattern")
             ->allow_extra_args(false);
         command.add_option("--share", a.share, "share of the groups to hold out without --hold-out (default 0.25)")
-            ->check(CLI::Range(0.0, 1.0));
+            ->check(within(0, 1));
         command
             .add_option("--of", a.quantities,
                         "compared quantity, once per quantity (default angle, and duty if all logs have it)")

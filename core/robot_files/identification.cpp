@@ -38,8 +38,10 @@ std::string error_text(double error, Identification::Quantity quantity) {
 }
 
 std::string short_text(const Identification& of) {
-  const std::string error =
+  std::string error =
       of.held_out_logs > 0 && of.held_out > 0 ? "held-out MAE " + error_text(of.held_out, of.quantity) : "none held out";
+  if (of.held_out_before > 0 && of.held_out > of.held_out_before)
+    error += ", worse than " + error_text(of.held_out_before, of.quantity) + " before the fit";
   return fmt::format("identified from {} ({})", counted(static_cast<std::size_t>(of.logs), "log"), error);
 }
 

@@ -255,7 +255,7 @@ Identification TypePresets::identification(std::size_t joint) const {
   const Node* const of_type = maps.of_type == nullptr ? nullptr : maps.of_type->find(kIdentified);
   const Node* const stated = of_hinge != nullptr ? of_hinge : of_type;
   if (stated == nullptr) return made;
-  Problems none;  // those of its values are reported where the module type is read
+  Problems none;  // read() reports those of its values
   Reader reader(*stated, kIdentified, none, nullptr);
   made.fields(reader);
   return made;
@@ -272,7 +272,8 @@ void TypePresets::read(const Entry& entry, const Maps& maps, void* settings, Joi
     Reader preset(map, word(kind_), problems, joints);
     if (whole) preset.take("type");
     preset.take("source");
-    preset.take(kIdentified);
+    Identification checked;
+    preset.group(kIdentified, checked, "");
     visit_settings(entry, settings, preset);
     preset.finish();
   };

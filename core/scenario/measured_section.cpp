@@ -230,7 +230,8 @@ bool MeasuredSettings::reads(const std::string& column) const {
   return any() && std::ranges::any_of(log->joints, [&](const MeasuredLog::OfJoint& of) {
            const auto is = [&](const char* quantity) { return column == fmt::format("joint.{}.{}", of.joint, quantity); };
            const auto compared = [&](const LoggedKind& kind) { return !of.of(kind.kind).empty() && is(kind.column); };
-           return std::ranges::any_of(kKinds, compared) || (!of.of(Logged::angle).empty() && is("speed"));
+           return std::ranges::any_of(kKinds, compared) || (!of.of(Logged::angle).empty() && is("speed")) ||
+                  (!of.of(Logged::duty).empty() && column == "supply.voltage");
          });
 }
 

@@ -90,6 +90,7 @@ TEST_F(Messages, AValueOfAnotherKind) {
   refused("converge ok.yaml --jobs=0", "gaitlab converge: error: --jobs is '0'" + jobs);
   refused("converge ok.yaml --jobs -3", "gaitlab converge: error: --jobs is '-3'" + jobs);
   refused("converge ok.yaml --jobs 1.5", "gaitlab converge: error: --jobs is '1.5'" + jobs);
+  refused("new log motions --speed nan", "gaitlab new log: error: --speed is 'nan'; expected a number from 0.1 to 1000");
   refused("run ok.yaml --format hd5", "gaitlab run: error: --format is 'hd5'; expected h5 or csv; did you mean 'h5'?");
   refused("test '' ok.yaml",
           "gaitlab test: error: SCENARIO is empty; expected scenario files, names of `gaitlab list scenarios`, or folders "

@@ -73,6 +73,17 @@ TEST(Measured, ErrorsAreThoseOfTraceAndLog) {
   EXPECT_NEAR(*errors->joints[0].measured_at_limit, 49.0 / kRows, 1e-12);  // rows 101 to 149
 }
 
+TEST(Measured, ADutyIsAShareOfTheBusWhateverTheTraceKeeps) {
+  const auto duty = [](const std::string& columns) {
+    const Scenario s = scenario(rod() + kBench + kLoop + measured(log_text(0.005)) +
+                                "supply: {voltage: 3}\ntrace: {columns: " + columns + "}\n");
+    return log_errors(s, run(s))->joints[0].of(Logged::duty)->mae;
+  };
+  const double all = duty("[joint.*, supply.*]");
+  EXPECT_EQ(duty("[joint.*]"), all);
+  EXPECT_EQ(duty("[t]"), all);
+}
+
 TEST(Measured, InterpolatesTheAngleByTheCubicOfAnglesAndSpeeds) {
   Scenario s = scenario(rod() + kBench + kLoop + measured(log_text(0.0013)));
   Recording r;

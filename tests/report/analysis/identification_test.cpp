@@ -56,6 +56,11 @@ TEST_F(Identified, TheVerdictNamesTheLogs) {
             "motors: identified from 8 logs (held-out MAE 43.6 mrad); the rest: chosen figures");
   write("logs: 1");
   EXPECT_EQ(judged(with(model_)).figures, "motors: identified from 1 log (none held out)");
+  write("logs: 8, held_out_logs: 4, held_out: 0.05, held_out_before: 0.04");
+  EXPECT_EQ(judged(with(model_)).figures,
+            "motors: identified from 8 logs (held-out MAE 50 mrad, worse than 40 mrad before the fit)");
+  EXPECT_THROW(with("", model_ + ", identified: {logs: 3, error: -1}"), InputError);
+  EXPECT_THROW(with("", model_ + ", identified: {logs: 3, foo: 1}"), InputError);
 }
 
 /// A number in the place of an identified one ends the identification; a limit, or a number of currents, does not.
