@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <exception>
 #include <map>
+#include <set>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -140,6 +141,19 @@ void UrdfText::check_tree() const {
                              in_quotes(first->second), in_quotes(name)));
   }
   problems.raise();
+  std::vector<const urdf::Link*> reached{model_->getRoot().get()};
+  for (std::size_t i = 0; i < reached.size(); ++i) {
+    for (const urdf::LinkSharedPtr& child : reached[i]->child_links) reached.push_back(child.get());
+  }
+  const std::set<const urdf::Link*> tree(reached.begin(), reached.end());
+  const auto lost = std::ranges::find_if(model_->links_, [&](const auto& link) { return !tree.contains(link.second.get()); });
+  if (lost == model_->links_.end()) return;
+  const std::size_t others = model_->links_.size() - tree.size() - 1;
+  throw InputError(
+      place("link", lost->first),
+      fmt::format("link {}{} is not connected to the root link {}; expected one tree, without loops of joints",
+                  in_quotes(lost->first), others == 0 ? "" : fmt::format(", like {},", counted(others, "other link")),
+                  in_quotes(model_->getRoot()->name)));
 }
 
 std::vector<UrdfNote> UrdfText::repairs() const {

@@ -39,8 +39,8 @@ class UrdfText {
   [[nodiscard]] std::size_t find(const std::string& tag, std::size_t from) const;
 
   [[nodiscard]] SourceLocation place_of(std::size_t offset) const;
-  /// Throws InputError if a link is the child of two joints. urdfdom accepts it, and the paths to such links are as many as 2
-  /// to the power of their number.
+  /// Throws InputError if a link is the child of two joints, or if links are joined in a loop without connection to the root.
+  /// urdfdom accepts both: the paths to the first are as many as 2 to the power of their number, and the second are in no path.
   void check_tree() const;
   /// Place of the link or joint that one of urdfdom's messages names; the file if the message names neither.
   [[nodiscard]] SourceLocation place_in(const std::vector<std::string>& messages) const;
