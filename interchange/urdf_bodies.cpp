@@ -35,8 +35,6 @@ const char* type_name(int type) {
   }
 }
 
-constexpr const char* kFixedBase = "a scenario fixes it with robot: {base: fixed}";
-
 /// Names for the module file from the names in URDF, in the same order. Prefixes such as `m0/` are removed if all names then
 /// still differ, characters that are not allowed become _, and equal names are numbered.
 std::vector<std::string> allowed_names(const std::vector<std::string>& names) {
@@ -91,21 +89,24 @@ class BodyWalk {
     bool capsule;
   };
 
-  /// The root, or the link that floats above a root without mass. Adds a note if a root `world` fixes the base.
+  /// The root, or the link that floats above a root without mass. The base is fixed if a root without mass has the name
+  /// `world` and a link joined to it, or if all its joints are locked.
   const urdf::Link* first_link() {
     const urdf::Link* const root = urdf_.model().getRoot().get();
-    if (root->inertial != nullptr || root->child_joints.size() != 1) return root;
+    if (has_mass(*root) || root->child_joints.empty()) return root;
+    const auto is_joined = [&](const urdf::JointSharedPtr& joint) { return joined_.contains(joint.get()); };
+    const auto is_locked = [&](const urdf::JointSharedPtr& joint) {
+      return joint->type != urdf::Joint::FIXED && is_joined(joint);
+    };
     const urdf::Joint& joint = *root->child_joints.front();
-    if (joint.type == urdf::Joint::FLOATING) {
+    if (root->child_joints.size() == 1 && joint.type == urdf::Joint::FLOATING && !joined_.contains(&joint)) {
       left_out(urdf_.place("link", root->name),
                fmt::format("link {} and floating joint {}: the base of a scenario floats by default", in_quotes(root->name),
                            in_quotes(joint.name)));
       return urdf_.model().getLink(joint.child_link_name).get();
     }
-    if (joint.type == urdf::Joint::FIXED && root->name == "world") {
-      made_.fixed_base = true;
-      left_out(urdf_.place("joint", joint.name), fmt::format("the fixed base of link 'world'; {}", kFixedBase));
-    }
+    made_.fixed_base = root->name == "world" ? std::ranges::any_of(root->child_joints, is_joined)
+                                             : std::ranges::all_of(root->child_joints, is_locked);
     return root;
   }
 
@@ -121,8 +122,7 @@ class BodyWalk {
   void read_link(const Placed& at) {
     const urdf::Link& link = *at.link;
     const std::vector<Shape> shapes = link_shapes(at);
-    if (link.inertial != nullptr) add_mass(*link.inertial, at, shapes);
-    if (link.inertial != nullptr && masses_[at.body].size() == 1) made_.bodies[at.body].name = link.name;
+    if (has_mass(link)) add_mass(*link.inertial, at, shapes);
     std::vector<Shape>& all = made_.bodies[at.body].shapes;
     all.insert(all.end(), shapes.begin(), shapes.end());
     std::vector<Placed> next;
@@ -145,7 +145,8 @@ class BodyWalk {
     Mat3 inertia;
     inertia << in.ixx, in.ixy, in.ixz, in.ixy, in.iyy, in.iyz, in.ixz, in.iyz, in.izz;
     if (!pose.R.isIdentity(0)) inertia = Mat3(pose.R * inertia * pose.R.transpose());
-    masses_[at.body].push_back({in.mass, pose.p, in.mass == 0 ? Mat3(Mat3::Zero()) : inertia, at.link->name, shapes});
+    if (masses_[at.body].empty()) made_.bodies[at.body].name = at.link->name;
+    masses_[at.body].push_back({in.mass, pose.p, inertia, at.link->name, shapes});
   }
 
   void add_hinge(const urdf::Joint& joint, std::size_t parent, std::size_t child, const Pose& pose) {
@@ -154,6 +155,8 @@ class BodyWalk {
     const bool free = joint.type == urdf::Joint::CONTINUOUS;
     if (!free && joint.type != urdf::Joint::REVOLUTE) {
       refused_.push_back(&joint);
+      inner_.insert(parent);
+      moved_.insert(child);
       return;
     }
     if (joint.mimic != nullptr) {
@@ -166,6 +169,8 @@ class BodyWalk {
     made.hinge.hi = turns ? kNoStop : joint.limits->upper;
     read_motor(joint, urdf_, made, problems_);
     made_.hinges.push_back(made);
+    inner_.insert(parent);
+    moved_.insert(child);
   }
 
   /// The option of the command that fixes joints.
@@ -276,11 +281,6 @@ class BodyWalk {
   /// Sums the masses, reports bodies without mass, and makes names that a module file allows.
   void finish() {
     refuse_joints();
-    std::vector<bool> inner(made_.bodies.size(), false), moved(made_.bodies.size(), false);
-    for (const UrdfHinge& one : made_.hinges) {
-      inner[one.hinge.parent] = true;
-      moved[one.hinge.child] = true;
-    }
     std::vector<std::string> names, joints;
     for (std::size_t b = 0; b < made_.bodies.size(); ++b) {
       BodyType& body = made_.bodies[b];
@@ -289,9 +289,11 @@ class BodyWalk {
       body.mass = whole.mass;
       body.com = whole.com;
       body.inertia = whole.inertia;
-      if (body.mass == 0 && inner[b] && !moved[b]) {
+      const bool inner = inner_.contains(b);
+      const bool moved = moved_.contains(b);
+      if (body.mass == 0 && inner && !moved) {
         fix_base(body);
-      } else if (!(body.mass > 0) && !(inner[b] && moved[b])) {
+      } else if (!(body.mass > 0) && !(inner && moved)) {
         const std::string found =
             masses_[b].empty() ? "no mass; expected inertial" : "mass " + number_text(body.mass) + " kg; expected more than 0";
         problems_.add(
@@ -300,6 +302,7 @@ class BodyWalk {
       }
       names.push_back(body.name);
     }
+    if (made_.fixed_base) note_base();
     choose_motors(made_.bodies, urdf_, made_.hinges, made_.notes);
     if (!hidden_.empty()) {
       const std::string first = in_quotes(hidden_.front()->name);
@@ -324,9 +327,15 @@ class BodyWalk {
     made_.fixed_base = true;
     root.mass = 1;
     root.inertia = usual_inertia(root.mass, root.shapes);
-    changed(urdf_.place("link", root.name),
-            fmt::format("link {} has no mass, and a joint moves the rest: the base is fixed, its mass is 1 kg; {}",
-                        in_quotes(root.name), kFixedBase));
+    chosen_mass_ = true;
+  }
+
+  void note_base() {
+    const std::string& root = urdf_.model().getRoot()->name;
+    changed(urdf_.place("link", root),
+            fmt::format("link {} is the ground{}: the module has no contacts, so that new scenario writes base: fixed and no "
+                        "ground",
+                        in_quotes(root), chosen_mass_ ? ", and has a mass of 1 kg instead of none" : ""));
   }
 
   /// Adds a note on each name that was changed, other than by removing a prefix.
@@ -346,6 +355,8 @@ class BodyWalk {
   std::vector<Placed> open_;                   ///< links to read
   std::set<const urdf::Joint*> joined_;        ///< joints whose links are one body
   std::vector<const urdf::Joint*> refused_;    ///< joints that cannot be hinges and are not joined
+  std::set<std::size_t> inner_, moved_;        ///< bodies that are the parent of a joint that moves; those that one moves
+  bool chosen_mass_ = false;                   ///< true if the mass of a fixed base is chosen
   std::vector<const urdf::Link*> hidden_;      ///< links whose visual differs from their collision
 };
 

@@ -9,6 +9,7 @@
 #include "core/model/pattern.h"
 #include "core/settings/joint_patterns.h"
 #include "core/settings/wording.h"
+#include "interchange/urdf_mass.h"
 
 namespace gaitlab::interchange {
 
@@ -51,7 +52,7 @@ std::set<const urdf::Joint*> joined_joints(const UrdfText& urdf, const std::vect
   check_locked(links, locked, problems);
   for (const urdf::Link* const link : std::views::reverse(links)) {
     JoinedGroup& own = groups[link];
-    own.mass = own.mass || (link->inertial != nullptr && link->inertial->mass != 0);
+    own.mass = own.mass || has_mass(*link);
     const urdf::Joint* const joint = link->parent_joint.get();
     if (joint == nullptr) continue;
     JoinedGroup& parent = groups[urdf.model().getLink(joint->parent_link_name).get()];

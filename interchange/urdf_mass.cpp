@@ -52,6 +52,8 @@ void repair_inertia(UrdfMass& part, const UrdfText& urdf, std::vector<UrdfNote>&
 
 }  // namespace
 
+bool has_mass(const urdf::Link& link) { return link.inertial != nullptr && link.inertial->mass != 0; }
+
 UrdfMass united_mass(const std::vector<UrdfMass>& parts) {
   if (parts.size() == 1) return parts.front();
   UrdfMass whole;

@@ -18,6 +18,9 @@ struct UrdfMass {
   std::vector<Shape> shapes = {};  ///< of the link
 };
 
+/// True if the link has an inertial with a mass that is not 0.
+bool has_mass(const urdf::Link& link);
+
 /// Sum of the masses. A single mass is returned unchanged, to the last digit.
 UrdfMass united_mass(const std::vector<UrdfMass>& parts);
 

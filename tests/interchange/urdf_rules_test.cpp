@@ -198,9 +198,10 @@ TEST_F(FromUrdf, ARootWithoutMassIsAFixedBase) {
   EXPECT_EQ(body_of(type, "stand").mass, 1);
   EXPECT_NEAR(body_of(type, "stand").inertia(0, 0), (0.04 + 0.09) / 12, 1e-16);
   EXPECT_TRUE(type.all.empty()) << "without contacts, new scenario fixes the base";
-  EXPECT_EQ(notes().at(1),
-            "2 Changed: link 'stand' has no mass, and a joint moves the rest: the base is fixed, its mass is 1 kg; a scenario "
-            "fixes it with robot: {base: fixed}");
+  EXPECT_EQ(
+      notes().at(1),
+      "2 Changed: link 'stand' is the ground, and has a mass of 1 kg instead of none: the module has no contacts, so that "
+      "new scenario writes base: fixed and no ground");
   const ModuleType bare =
       read_urdf(urdf_link("stand", "") + urdf_link("arm") + urdf_joint("j", "revolute", "stand", "arm", kLimit));
   EXPECT_NEAR(body_of(bare, "stand").inertia(0, 0), 0.4 * std::pow(3 / (4 * std::numbers::pi * 1000), 2.0 / 3), 1e-15)
