@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "core/settings/wording.h"
@@ -122,7 +123,8 @@ class BodyWalk {
   void read_link(const Placed& at) {
     const urdf::Link& link = *at.link;
     const std::vector<Shape> shapes = link_shapes(at);
-    if (has_mass(link)) add_mass(*link.inertial, at, shapes);
+    check_numbers(link, shapes, urdf_, problems_);
+    if (link.inertial != nullptr) add_mass(*link.inertial, at, shapes);
     std::vector<Shape>& all = made_.bodies[at.body].shapes;
     all.insert(all.end(), shapes.begin(), shapes.end());
     std::vector<Placed> next;
@@ -144,9 +146,16 @@ class BodyWalk {
     const Pose pose = at.pose * pose_of(in.origin);
     Mat3 inertia;
     inertia << in.ixx, in.ixy, in.ixz, in.ixy, in.iyy, in.iyz, in.ixz, in.iyz, in.izz;
+    if (in.mass == 0) {
+      if (!inertia.isZero(0)) {
+        changed(urdf_.place("link", at.link->name),
+                fmt::format("link {} has mass 0; its inertia counts as 0", in_quotes(at.link->name)));
+      }
+      return;
+    }
     if (!pose.R.isIdentity(0)) inertia = Mat3(pose.R * inertia * pose.R.transpose());
     if (masses_[at.body].empty()) made_.bodies[at.body].name = at.link->name;
-    masses_[at.body].push_back({in.mass, pose.p, inertia, at.link->name, shapes});
+    masses_[at.body].push_back({std::abs(in.mass), pose.p, inertia, at.link->name, shapes});
   }
 
   void add_hinge(const urdf::Joint& joint, std::size_t parent, std::size_t child, const Pose& pose) {
@@ -201,7 +210,10 @@ class BodyWalk {
     const double hi = joint.limits->upper;
     const bool none = urdf_.lacks_limit(joint.name);
     if (!none && (lo < hi || (lo == hi && lo != 0))) return false;
-    const std::string what = none ? "has no limit" : fmt::format("has the range {} to {}", number_text(lo), number_text(hi));
+    const std::string what = none ? "has no limit"
+                             : urdf_.lacks_range(joint.name)
+                                 ? "has no range"
+                                 : fmt::format("has the range {} to {}", number_text(lo), number_text(hi));
     changed(urdf_.place("joint", joint.name), fmt::format("joint {} {}; it turns freely", in_quotes(joint.name), what));
     return true;
   }
@@ -294,16 +306,14 @@ class BodyWalk {
       if (body.mass == 0 && inner && !moved) {
         fix_base(body);
       } else if (!(body.mass > 0) && !(inner && moved)) {
-        const std::string found =
-            masses_[b].empty() ? "no mass; expected inertial" : "mass " + number_text(body.mass) + " kg; expected more than 0";
-        problems_.add(
-            urdf_.place("link", body.name),
-            fmt::format("link {} has {} (only a link between two hinges may have none)", in_quotes(body.name), found));
+        problems_.add(urdf_.place("link", body.name),
+                      fmt::format("link {} has no mass; expected inertial (only a link between two hinges may have none)",
+                                  in_quotes(body.name)));
       }
       names.push_back(body.name);
     }
     if (made_.fixed_base) note_base();
-    choose_motors(made_.bodies, urdf_, made_.hinges, made_.notes);
+    choose_motors(made_.bodies, urdf_, made_.hinges, made_.notes, problems_);
     if (!hidden_.empty()) {
       const std::string first = in_quotes(hidden_.front()->name);
       left_out(urdf_.place("link", hidden_.front()->name),

@@ -20,9 +20,11 @@ struct UrdfRepair {
   std::vector<Note> notes;          ///< one for each fault, in the order of the file
   std::set<Part> capsules;          ///< parts that are capsules; cylinders in `text`
   std::set<std::string> no_limits;  ///< joints without an element `limit`, which has no effort and no velocity in `text`
+  std::set<std::string> no_ranges;  ///< joints whose `limit` has neither `lower` nor `upper`
 };
 
-inline constexpr double kNoEffort = 1e9;  ///< N m, in `text` in the place of a missing effort; a missing velocity is 0
+inline constexpr double kNoEffort = 1.25e307;  ///< N m, in `text` in the place of a missing effort; see also kNoSpeed
+inline constexpr double kNoSpeed = 1.25e307;   ///< rad/s, in the place of a missing velocity
 
 /// Repairs a URDF file:
 /// - materials are removed, because no part of a module has one; a note if one has no name or that of another;

@@ -14,6 +14,7 @@
 
 #include "core/settings/text_file.h"
 #include "core/settings/wording.h"
+#include "interchange/xml_tags.h"
 
 namespace gaitlab::interchange {
 
@@ -183,7 +184,7 @@ std::size_t UrdfText::find(const std::string& tag, std::size_t from) const {
 SourceLocation UrdfText::place(const std::string& tag, const std::string& name, bool last) const {
   std::size_t found = std::string::npos;
   for (std::size_t at = find(tag, 0); at != std::string::npos && (last || found == std::string::npos); at = find(tag, at + 1)) {
-    const std::string head = text_.substr(at, text_.find('>', at) - at);
+    const std::string head = decoded(text_.substr(at, text_.find('>', at) - at));
     const bool named =
         head.find("name=\"" + name + '"') != std::string::npos || head.find("name='" + name + '\'') != std::string::npos;
     // Elements <joint> of a transmission do not have a type.

@@ -23,6 +23,8 @@ class UrdfText {
   [[nodiscard]] std::vector<UrdfNote> repairs() const;
   /// True if the joint has a range, but no element `limit`.
   [[nodiscard]] bool lacks_limit(const std::string& joint) const { return repair_.no_limits.contains(joint); }
+  /// True if the joint has an element `limit` with neither `lower` nor `upper`.
+  [[nodiscard]] bool lacks_range(const std::string& joint) const { return repair_.no_ranges.contains(joint); }
   /// True if a part of a link's collision or visual, a cylinder in the model, is a capsule.
   [[nodiscard]] bool is_capsule(const std::string& link, bool collision, std::size_t part) const {
     return repair_.capsules.contains({link, collision, part});

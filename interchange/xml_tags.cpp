@@ -1,6 +1,7 @@
 #include "interchange/xml_tags.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace gaitlab::interchange {
 
@@ -84,6 +85,19 @@ std::vector<XmlTag> xml_tags(std::string_view text) {
     }
   }
   return tags;
+}
+
+std::string decoded(std::string text) {
+  constexpr std::pair<std::string_view, char> kNames[] = {
+      {"&amp;", '&'}, {"&lt;", '<'}, {"&gt;", '>'}, {"&quot;", '"'}, {"&apos;", '\''}};
+  for (std::size_t at = text.find('&'); at != std::string::npos; at = text.find('&', at + 1)) {
+    for (const auto& [name, character] : kNames) {
+      if (text.compare(at, name.size(), name) != 0) continue;
+      text.replace(at, name.size(), 1, character);
+      break;
+    }
+  }
+  return text;
 }
 
 }  // namespace gaitlab::interchange
