@@ -6,6 +6,8 @@
 #include <cmath>
 #include <set>
 
+#include "core/model/pattern.h"
+#include "core/settings/shell_word.h"
 #include "core/settings/wording.h"
 #include "interchange/robot_xml.h"
 #include "interchange/urdf.h"
@@ -182,10 +184,16 @@ class BodyWalk {
     moved_.insert(child);
   }
 
-  /// The option of the command that fixes joints.
-  static std::string lock_option(const std::vector<const urdf::Joint*>& joints) {
+  /// The options of the command that fix these joints, after those that it has.
+  [[nodiscard]] std::string lock_option(const std::vector<const urdf::Joint*>& joints) const {
+    std::vector<std::string> names;
+    for (const std::string& one : locked_) {
+      const auto fixes = [&](const auto& joint) { return joint.first == one || glob(one, joint.first); };
+      if (std::ranges::any_of(urdf_.model().joints_, fixes)) names.push_back(one);
+    }
+    for (const urdf::Joint* const joint : joints) names.push_back(joint->name);
     std::string text;
-    for (const urdf::Joint* const joint : joints) text += fmt::format("{}--lock \"{}\"", text.empty() ? "" : " ", joint->name);
+    for (const std::string& name : names) text += (text.empty() ? "--lock " : " --lock ") + shell_word(name);
     return text;
   }
 
@@ -374,7 +382,7 @@ class BodyWalk {
 
 UrdfBodies urdf_bodies(const UrdfText& urdf, const std::vector<std::string>& locked, Problems& problems) {
   UrdfBodies made = BodyWalk(urdf, locked, problems).read();
-  for (const char* tag : {"transmission", "gazebo", "sensor"}) {
+  for (const char* tag : {"transmission", "gazebo", "sensor", "safety_controller", "calibration", "contact"}) {
     if (const std::size_t number = urdf.count(tag); number > 0)
       made.notes.push_back({urdf.place(), fmt::format("{} of <{}>", counted(number, "element"), tag)});
   }

@@ -62,6 +62,18 @@ std::string fault_of(const UrdfHinge& one) {
 
 double three_digits(double value) { return std::strtod(fmt::format("{:.3g}", value).c_str(), nullptr); }
 
+/// Adds a note on the hinges without a motor because of an effort of 0, which may stand for a missing number.
+void note_passive(const UrdfText& urdf, const std::vector<UrdfHinge>& hinges, std::vector<UrdfNote>& notes) {
+  const auto passive = [](const UrdfHinge& one) { return one.hinge.passive.has_value(); };
+  const auto first = std::ranges::find_if(hinges, passive);
+  if (first == hinges.end()) return;
+  const std::ptrdiff_t number = std::ranges::count_if(hinges, passive);
+  const std::string name = in_quotes(first->of->name);
+  notes.push_back({urdf.place("joint", first->of->name),
+                   fmt::format("a motor of {}, whose effort is 0",
+                               number == 1 ? "joint " + name : fmt::format("{} joints, first {}", number, name))});
+}
+
 }  // namespace
 
 void read_motor(const urdf::Joint& joint, const UrdfText& urdf, UrdfHinge& hinge, Problems& problems) {
@@ -97,6 +109,7 @@ void read_motor(const urdf::Joint& joint, const UrdfText& urdf, UrdfHinge& hinge
 
 void choose_motors(const std::vector<BodyType>& bodies, const UrdfText& urdf, std::vector<UrdfHinge>& hinges,
                    std::vector<UrdfNote>& notes, Problems& problems) {
+  note_passive(urdf, hinges, notes);
   const std::vector<Carried> carried = carried_by_body(bodies, hinges);
   if (std::ranges::any_of(hinges, [](const UrdfHinge& one) { return !one.hinge.passive; }))
     notes.push_back({urdf.place(), "effort and velocity become the ends of a motor's line", true});

@@ -24,10 +24,11 @@ struct UrdfHinge {
 /// a problem for negative numbers, and for friction above 1e9.
 void read_motor(const urdf::Joint& joint, const UrdfText& urdf, UrdfHinge& hinge, Problems& problems);
 
-/// Chooses the torques and speeds that the file does not state, with a note each. Torque at rest: twice M g L, where M is the
-/// mass of all bodies that the hinge moves, and L the distance from its axis to the farthest of their centres of mass if the
-/// hinges between are stretched, or their largest radius of gyration if that is longer. No-load speed: 20 rad/s. Bodies must be
-/// in an order in which each parent is before its children. Adds a problem for a torque above 1e9 N m.
+/// Chooses the torques and speeds that the file does not state, with a note each; adds a note on hinges without a motor. Torque
+/// at rest: twice M g L, where M is the mass of all bodies that the hinge moves, and L the distance from its axis to the
+/// farthest of their centres of mass if the hinges between are stretched, or their largest radius of gyration if that is
+/// longer. No-load speed: 20 rad/s. Bodies must be in an order in which each parent is before its children. Adds a problem for
+/// a torque above 1e9 N m.
 void choose_motors(const std::vector<BodyType>& bodies, const UrdfText& urdf, std::vector<UrdfHinge>& hinges,
                    std::vector<UrdfNote>& notes, Problems& problems);
 

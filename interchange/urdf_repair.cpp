@@ -143,9 +143,9 @@ class RepairWalk {
   void drop_material(const XmlTag& tag) {
     const std::string name = name_of_tag(tag);
     if (name.empty()) {
-      note(tag.begin, "a material has no name");
+      note(tag.begin, "a material without a name", false);
     } else if (in_robot(tag) && !materials_.insert(name).second) {
-      note(tag.begin, fmt::format("material {} is stated twice", in_quotes(name)));
+      note(tag.begin, fmt::format("material {}, which is stated twice", in_quotes(name)), false);
     }
     edits_.push_back({tag.begin, tag.close_end - tag.begin, ""});
   }
@@ -188,7 +188,9 @@ class RepairWalk {
   static std::string no_speed() { return fmt::format(" velocity=\"{}\"", kNoSpeed); }
   static std::string no_effort() { return fmt::format(" effort=\"{}\"", kNoEffort); }
 
-  void note(std::size_t offset, const std::string& text) { made_.notes.push_back({offset, text}); }
+  void note(std::size_t offset, const std::string& text, bool changed = true) {
+    made_.notes.push_back({offset, text, changed});
+  }
 
   void apply() {
     std::ranges::stable_sort(edits_, {}, &Edit::begin);

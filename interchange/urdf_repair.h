@@ -12,6 +12,7 @@ struct UrdfRepair {
   struct Note {
     std::size_t offset;  ///< of the fault in the text of the file
     std::string text;
+    bool changed;  ///< false if it has no effect on the motion
   };
   /// A part of a link: its name, true for its collision and false for its visual, and the number of the part.
   using Part = std::tuple<std::string, bool, std::size_t>;

@@ -167,7 +167,7 @@ std::vector<UrdfNote> UrdfText::repairs() const {
       place.line += ends ? 1 : 0;
       place.column = ends ? 1 : place.column + 1;
     }
-    notes.push_back({place, note.text, true});
+    notes.push_back({place, note.text, note.changed});
   }
   return notes;
 }

@@ -148,7 +148,7 @@ TEST_F(NewFiles, LockNeedsJoints) {
   const std::string sliding =
       file +
       ":14:3: error: joint 'finger_left' is prismatic; a module has hinges; they are fixed at 0 by --lock "
-      "\"finger_left\" --lock \"finger_right\"\n" +
+      "finger_left --lock finger_right\n" +
       file + ":17:3: error: joint 'finger_right' is prismatic; a module has hinges\n";
   EXPECT_EQ(refused("module m --from " + file), sliding);
   EXPECT_EQ(refused("module m --from " + file + " --lock wrists"),

@@ -111,7 +111,8 @@ TEST_F(FromUrdf, MotorsAndPassiveHinges) {
   EXPECT_EQ(notes(), (Texts{"0 Changed: effort and velocity become the ends of a motor's line",
                             "0 Not carried over: 1 element of <transmission>", "0 Not carried over: 2 elements of <gazebo>",
                             "6 Not carried over: the name of joint 'dock', which is dock_2 here",
-                            "7 Not carried over: the name of joint 'x y', which is x_y here"}));
+                            "7 Not carried over: the name of joint 'x y', which is x_y here",
+                            "8 Not carried over: a motor of joint 'free', whose effort is 0"}));
 }
 
 /// Motors of joints without a limit hold twice the weight of all that they move, at its full lever: T = 2 m g L. The stretched
@@ -119,18 +120,16 @@ TEST_F(FromUrdf, MotorsAndPassiveHinges) {
 /// One message lists everything that a module cannot contain, in the order of the file.
 TEST_F(FromUrdf, RefusesInOneList) {
   const std::string mesh = "<visual><geometry><mesh filename='a.stl'/></geometry></visual>";
-  EXPECT_EQ(
-      refused(urdf_link("a", kInertial + mesh) + urdf_link("b") + urdf_link("c") + urdf_link("d") + urdf_link("e") +
-              urdf_joint("ad", "prismatic", "a", "d", kLimit) + urdf_joint("ac", "floating", "a", "c", "") +
-              urdf_joint("ab", "planar", "a", "b", "") +
-              urdf_joint("ae", "revolute", "a", "e", "<limit lower='-1' upper='1' effort='-1' velocity='-2'/>")),
-      "r:2:1: error: link 'a' has the mesh 'a.stl'; expected box, cylinder or sphere, at least as collision\n"
-      "r:7:1: error: joint 'ad' is prismatic; a module has hinges; they are fixed at 0 by --lock \"ad\" --lock \"ac\" --lock "
-      "\"ab\"\n"
-      "r:8:1: error: joint 'ac' is floating; a module has hinges\n"
-      "r:9:1: error: joint 'ab' is planar; a module has hinges\n"
-      "r:10:1: error: joint 'ae' has effort -1; expected the torque at rest, N m, of its motor, not negative\n"
-      "r:10:1: error: joint 'ae' has velocity -2; expected the no-load speed, rad/s, of its motor, not negative");
+  EXPECT_EQ(refused(urdf_link("a", kInertial + mesh) + urdf_link("b") + urdf_link("c") + urdf_link("d") + urdf_link("e") +
+                    urdf_joint("ad", "prismatic", "a", "d", kLimit) + urdf_joint("ac", "floating", "a", "c", "") +
+                    urdf_joint("ab", "planar", "a", "b", "") +
+                    urdf_joint("ae", "revolute", "a", "e", "<limit lower='-1' upper='1' effort='-1' velocity='-2'/>")),
+            "r:2:1: error: link 'a' has the mesh 'a.stl'; expected box, cylinder or sphere, at least as collision\n"
+            "r:7:1: error: joint 'ad' is prismatic; a module has hinges; they are fixed at 0 by --lock ad --lock ac --lock ab\n"
+            "r:8:1: error: joint 'ac' is floating; a module has hinges\n"
+            "r:9:1: error: joint 'ab' is planar; a module has hinges\n"
+            "r:10:1: error: joint 'ae' has effort -1; expected the torque at rest, N m, of its motor, not negative\n"
+            "r:10:1: error: joint 'ae' has velocity -2; expected the no-load speed, rad/s, of its motor, not negative");
   EXPECT_EQ(refused(urdf_link("a", "")),
             "r:2:1: error: link 'a' has no mass; expected inertial (only a link between two hinges may have none)");
   EXPECT_EQ(refused(urdf_link("a") + urdf_link("b")),

@@ -21,7 +21,7 @@ TEST_F(FromUrdf, ForgivesWhatOthersForgive) {
   };
   const Row rows[] = {
       {"<visual><geometry><box size='1 1 1'/></geometry><material><color rgba='1 x'/></material></visual>" + box,
-       first + kLimit, "3 Changed: a material has no name"},
+       first + kLimit, "3 Not carried over: a material without a name"},
       {shape("<box size='1, 1,1'/>"), first + kLimit, "3 Changed: size=\"1, 1,1\" is read as 1 1 1"},
       {shape("<box size='1 1 1'/>").insert(11, "<origin xyz='1 2 3 4'/>"), first + kLimit,
        "3 Changed: xyz=\"1 2 3 4\" is read as 1 2 3"},
@@ -59,7 +59,7 @@ TEST_F(FromUrdf, ForgivesWhatOthersForgive) {
     EXPECT_EQ(body_of(type, "b").shapes.at(0).size, Vec3::Ones()) << row.note;
   }
   read_urdf("<material name='red'><color rgba='1 0 0 1'/></material>\n<material name='red'/>\n" + urdf_link("a"));
-  EXPECT_EQ(notes(), Texts{"3 Changed: material 'red' is stated twice"});
+  EXPECT_EQ(notes(), Texts{"3 Not carried over: material 'red', which is stated twice"});
 }
 
 /// Numbers with two meanings are refused, with urdfdom's message: a decimal comma, a vector of two numbers.
@@ -136,7 +136,7 @@ TEST_F(FromUrdf, LockedJointsAreFixed) {
       urdf_joint("finger_2", "revolute", "hand", "finger_r",
                  "<mimic joint='wrist'/><limit lower='-1' upper='1' effort='1' velocity='1'/>");
   EXPECT_EQ(refused(robot),
-            "r:7:1: error: joint 'finger_1' is prismatic; a module has hinges; it is fixed at 0 by --lock \"finger_1\"");
+            "r:7:1: error: joint 'finger_1' is prismatic; a module has hinges; it is fixed at 0 by --lock finger_1");
   locked_ = {"finger_1"};
   const ModuleType one = read_urdf(robot);
   EXPECT_EQ(one.hinges.size(), 2U);
@@ -146,11 +146,37 @@ TEST_F(FromUrdf, LockedJointsAreFixed) {
   EXPECT_EQ(notes(), (Texts{"0 Changed: effort and velocity become the ends of a motor's line",
                             "7 Changed: joint 'finger_1' is fixed at 0, as --lock asks",
                             "8 Changed: joint 'finger_2' mimics 'wrist'; it moves independently, or is fixed by --lock "
-                            "\"finger_2\""}));
+                            "finger_1 --lock finger_2"}));
   locked_ = {"finger*"};
   EXPECT_EQ(read_urdf(robot).hinges.size(), 1U);
   locked_ = {"wrists"};
   EXPECT_TRUE(contains(refused(robot), "--lock: error: no joint 'wrists'; did you mean 'wrist'?")) << refused(robot);
+}
+
+/// The offered options can be copied to a shell, and fix these joints alone, whatever their names.
+TEST_F(FromUrdf, LockedNamesAreVerbatim) {
+  const std::string slide = "<limit lower='0' upper='1' effort='1' velocity='1'/>";
+  const std::string robot = urdf_link("a") + urdf_link("b") + urdf_link("c") + urdf_link("d") +
+                            urdf_joint("g*", "prismatic", "a", "b", slide) + urdf_joint("g$(x)", "revolute", "a", "c", kLimit) +
+                            urdf_joint("it&apos;s", "prismatic", "a", "d", slide);
+  EXPECT_TRUE(contains(refused(robot), "they are fixed at 0 by --lock 'g*' --lock 'it'\\''s'\n")) << refused(robot);
+  locked_ = {"g*"};
+  EXPECT_TRUE(contains(refused(robot), "it is fixed at 0 by --lock 'g*' --lock 'it'\\''s'")) << refused(robot);
+  locked_ = {"g*", "it's"};
+  EXPECT_EQ(read_urdf(robot).hinges.size(), 1U);
+}
+
+/// Parts without an effect on the motion are notes, not changes.
+TEST_F(FromUrdf, DroppedPartsAreNoted) {
+  const std::string drop = "<safety_controller k_velocity='1'/><calibration rising='0.1'/>";
+  const std::string limit = kLimit;
+  read_urdf(urdf_link("a", std::string(kInertial) + "<contact><lateral_friction value='1'/></contact>") + urdf_link("b") +
+            urdf_link("c") + urdf_joint("j", "revolute", "a", "b", limit + drop) +
+            urdf_joint("k", "revolute", "b", "c", "<limit lower='-1' upper='1' effort='0' velocity='0'/>" + drop));
+  EXPECT_EQ(notes(), (Texts{"0 Changed: effort and velocity become the ends of a motor's line",
+                            "0 Not carried over: 2 elements of <safety_controller>",
+                            "0 Not carried over: 2 elements of <calibration>", "0 Not carried over: 1 element of <contact>",
+                            "6 Not carried over: a motor of joint 'k', whose effort is 0"}));
 }
 
 std::string inertial(double mass, const Vec3& moments, const std::string& more = "ixy='0' ixz='0' iyz='0'") {
