@@ -119,7 +119,7 @@ void choose_motors(const std::vector<BodyType>& bodies, const UrdfText& urdf, st
     const std::string fault = fault_of(one);
     if (one.no_effort) one.effort = three_digits(kChosenShare * load.mass * kStandard * load.lever);
     if (one.no_speed) one.speed = kChosenSpeed;
-    if (!(one.effort <= kMostTorque)) {
+    if (!(one.effort <= kMostTorque) && problems.empty()) {  // else the absurd number has its message
       problems.add(urdf.place("joint", one.of->name),
                    fmt::format("joint {} has {}, and one that holds what it moves has {} N m; expected at most 1e9 N m",
                                in_quotes(one.of->name), fault, number_text(one.effort)));

@@ -154,7 +154,7 @@ class RepairWalk {
     const XmlTag& tag = tags_[i];
     const std::size_t part = tag.parent == kNoTag ? kNoTag : tags_[tag.parent].parent;
     const std::string link = name_of_tag(tags_[owner_[i]]);
-    // urdfdom also decodes characters given by their numbers, so that such a name would not be found.
+    // urdfdom decodes all characters that numbers name, so that this name would not be found.
     if (part == kNoTag || tags_[part].parent != owner_[i] || link.find("&#") != std::string::npos) return;
     made_.capsules.insert({link, tags_[part].name == "collision", number_[part]});
     note(tag.begin,

@@ -28,7 +28,7 @@ struct XmlTag {
 /// skipped: a later parser refuses such a text. The cost is linear in the length of the text.
 std::vector<XmlTag> xml_tags(std::string_view text);
 
-/// A text with characters in the place of their five names, such as `&amp;`.
+/// A text with characters in the place of their five names, such as `&amp;`, and of ASCII numbers, such as `&#10;`.
 std::string decoded(std::string text);
 
 }  // namespace gaitlab::interchange

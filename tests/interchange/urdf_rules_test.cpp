@@ -236,7 +236,7 @@ TEST_F(FromUrdf, AFaultThatTheBodyDoesNotHaveIsKept) {
 TEST_F(FromUrdf, NamesWithEntitiesKeepTheirRules) {
   const std::string capsule = "<collision><geometry><capsule radius='0.1' length='1'/></geometry></collision>";
   const ModuleType type = read_urdf(urdf_link("a&lt;", kInertial + capsule) + urdf_link("b") +
-                                    urdf_joint("j&amp;k", "revolute", "a&lt;", "b", "<axis xyz='0 1 0'/>"));
+                                    urdf_joint("j&amp;&#107;", "revolute", "a&lt;", "b", "<axis xyz='0 1 0'/>"));
   EXPECT_EQ(notes().at(2), "2 Changed: link 'a<' has a capsule, which URDF lacks: a cylinder with a sphere at each end");
   EXPECT_EQ(notes().at(3), "4 Changed: joint 'j&k' has no limit; it turns freely");
   EXPECT_EQ(type.bodies[0].shapes.size(), 3U);
