@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
+#include "core/model/pattern.h"
+#include "core/settings/shell_word.h"
 #include "core/settings/wording.h"
 #include "interchange/robot_xml.h"
 #include "interchange/urdf.h"
@@ -34,8 +37,6 @@ const char* type_name(int type) {
       return "of an unknown type";
   }
 }
-
-constexpr const char* kFixedBase = "a scenario fixes it with robot: {base: fixed}";
 
 /// Names for the module file from the names in URDF, in the same order. Prefixes such as `m0/` are removed if all names then
 /// still differ, characters that are not allowed become _, and equal names are numbered.
@@ -91,21 +92,24 @@ class BodyWalk {
     bool capsule;
   };
 
-  /// The root, or the link that floats above a root without mass. Adds a note if a root `world` fixes the base.
+  /// The root, or the link that floats above a root without mass. The base is fixed if a root without mass has the name
+  /// `world` and a link joined to it, or if all its joints are locked.
   const urdf::Link* first_link() {
     const urdf::Link* const root = urdf_.model().getRoot().get();
-    if (root->inertial != nullptr || root->child_joints.size() != 1) return root;
+    if (has_mass(*root) || root->child_joints.empty()) return root;
+    const auto is_joined = [&](const urdf::JointSharedPtr& joint) { return joined_.contains(joint.get()); };
+    const auto is_locked = [&](const urdf::JointSharedPtr& joint) {
+      return joint->type != urdf::Joint::FIXED && is_joined(joint);
+    };
     const urdf::Joint& joint = *root->child_joints.front();
-    if (joint.type == urdf::Joint::FLOATING) {
+    if (root->child_joints.size() == 1 && joint.type == urdf::Joint::FLOATING && !joined_.contains(&joint)) {
       left_out(urdf_.place("link", root->name),
                fmt::format("link {} and floating joint {}: the base of a scenario floats by default", in_quotes(root->name),
                            in_quotes(joint.name)));
       return urdf_.model().getLink(joint.child_link_name).get();
     }
-    if (joint.type == urdf::Joint::FIXED && root->name == "world") {
-      made_.fixed_base = true;
-      left_out(urdf_.place("joint", joint.name), fmt::format("the fixed base of link 'world'; {}", kFixedBase));
-    }
+    made_.fixed_base = root->name == "world" ? std::ranges::any_of(root->child_joints, is_joined)
+                                             : std::ranges::all_of(root->child_joints, is_locked);
     return root;
   }
 
@@ -121,8 +125,8 @@ class BodyWalk {
   void read_link(const Placed& at) {
     const urdf::Link& link = *at.link;
     const std::vector<Shape> shapes = link_shapes(at);
+    check_numbers(link, shapes, urdf_, problems_);
     if (link.inertial != nullptr) add_mass(*link.inertial, at, shapes);
-    if (link.inertial != nullptr && masses_[at.body].size() == 1) made_.bodies[at.body].name = link.name;
     std::vector<Shape>& all = made_.bodies[at.body].shapes;
     all.insert(all.end(), shapes.begin(), shapes.end());
     std::vector<Placed> next;
@@ -144,8 +148,16 @@ class BodyWalk {
     const Pose pose = at.pose * pose_of(in.origin);
     Mat3 inertia;
     inertia << in.ixx, in.ixy, in.ixz, in.ixy, in.iyy, in.iyz, in.ixz, in.iyz, in.izz;
+    if (in.mass == 0) {
+      if (!inertia.isZero(0)) {
+        changed(urdf_.place("link", at.link->name),
+                fmt::format("link {} has mass 0; its inertia counts as 0", in_quotes(at.link->name)));
+      }
+      return;
+    }
     if (!pose.R.isIdentity(0)) inertia = Mat3(pose.R * inertia * pose.R.transpose());
-    masses_[at.body].push_back({in.mass, pose.p, in.mass == 0 ? Mat3(Mat3::Zero()) : inertia, at.link->name, shapes});
+    if (masses_[at.body].empty()) made_.bodies[at.body].name = at.link->name;
+    masses_[at.body].push_back({std::abs(in.mass), pose.p, inertia, at.link->name, shapes});
   }
 
   void add_hinge(const urdf::Joint& joint, std::size_t parent, std::size_t child, const Pose& pose) {
@@ -154,6 +166,8 @@ class BodyWalk {
     const bool free = joint.type == urdf::Joint::CONTINUOUS;
     if (!free && joint.type != urdf::Joint::REVOLUTE) {
       refused_.push_back(&joint);
+      inner_.insert(parent);
+      moved_.insert(child);
       return;
     }
     if (joint.mimic != nullptr) {
@@ -166,12 +180,20 @@ class BodyWalk {
     made.hinge.hi = turns ? kNoStop : joint.limits->upper;
     read_motor(joint, urdf_, made, problems_);
     made_.hinges.push_back(made);
+    inner_.insert(parent);
+    moved_.insert(child);
   }
 
-  /// The option of the command that fixes joints.
-  static std::string lock_option(const std::vector<const urdf::Joint*>& joints) {
+  /// The options of the command that fix these joints, after those that it has.
+  [[nodiscard]] std::string lock_option(const std::vector<const urdf::Joint*>& joints) const {
+    std::vector<std::string> names;
+    for (const std::string& one : locked_) {
+      const auto fixes = [&](const auto& joint) { return joint.first == one || glob(one, joint.first); };
+      if (std::ranges::any_of(urdf_.model().joints_, fixes)) names.push_back(one);
+    }
+    for (const urdf::Joint* const joint : joints) names.push_back(joint->name);
     std::string text;
-    for (const urdf::Joint* const joint : joints) text += fmt::format("{}--lock \"{}\"", text.empty() ? "" : " ", joint->name);
+    for (const std::string& name : names) text += (text.empty() ? "--lock " : " --lock ") + shell_word(name);
     return text;
   }
 
@@ -196,7 +218,10 @@ class BodyWalk {
     const double hi = joint.limits->upper;
     const bool none = urdf_.lacks_limit(joint.name);
     if (!none && (lo < hi || (lo == hi && lo != 0))) return false;
-    const std::string what = none ? "has no limit" : fmt::format("has the range {} to {}", number_text(lo), number_text(hi));
+    const std::string what = none ? "has no limit"
+                             : urdf_.lacks_range(joint.name)
+                                 ? "has no range"
+                                 : fmt::format("has the range {} to {}", number_text(lo), number_text(hi));
     changed(urdf_.place("joint", joint.name), fmt::format("joint {} {}; it turns freely", in_quotes(joint.name), what));
     return true;
   }
@@ -276,11 +301,6 @@ class BodyWalk {
   /// Sums the masses, reports bodies without mass, and makes names that a module file allows.
   void finish() {
     refuse_joints();
-    std::vector<bool> inner(made_.bodies.size(), false), moved(made_.bodies.size(), false);
-    for (const UrdfHinge& one : made_.hinges) {
-      inner[one.hinge.parent] = true;
-      moved[one.hinge.child] = true;
-    }
     std::vector<std::string> names, joints;
     for (std::size_t b = 0; b < made_.bodies.size(); ++b) {
       BodyType& body = made_.bodies[b];
@@ -289,18 +309,19 @@ class BodyWalk {
       body.mass = whole.mass;
       body.com = whole.com;
       body.inertia = whole.inertia;
-      if (body.mass == 0 && inner[b] && !moved[b]) {
+      const bool inner = inner_.contains(b);
+      const bool moved = moved_.contains(b);
+      if (body.mass == 0 && inner && !moved) {
         fix_base(body);
-      } else if (!(body.mass > 0) && !(inner[b] && moved[b])) {
-        const std::string found =
-            masses_[b].empty() ? "no mass; expected inertial" : "mass " + number_text(body.mass) + " kg; expected more than 0";
-        problems_.add(
-            urdf_.place("link", body.name),
-            fmt::format("link {} has {} (only a link between two hinges may have none)", in_quotes(body.name), found));
+      } else if (!(body.mass > 0) && !(inner && moved)) {
+        problems_.add(urdf_.place("link", body.name),
+                      fmt::format("link {} has no mass; expected inertial (only a link between two hinges may have none)",
+                                  in_quotes(body.name)));
       }
       names.push_back(body.name);
     }
-    choose_motors(made_.bodies, urdf_, made_.hinges, made_.notes);
+    if (made_.fixed_base) note_base();
+    choose_motors(made_.bodies, urdf_, made_.hinges, made_.notes, problems_);
     if (!hidden_.empty()) {
       const std::string first = in_quotes(hidden_.front()->name);
       left_out(urdf_.place("link", hidden_.front()->name),
@@ -324,9 +345,15 @@ class BodyWalk {
     made_.fixed_base = true;
     root.mass = 1;
     root.inertia = usual_inertia(root.mass, root.shapes);
-    changed(urdf_.place("link", root.name),
-            fmt::format("link {} has no mass, and a joint moves the rest: the base is fixed, its mass is 1 kg; {}",
-                        in_quotes(root.name), kFixedBase));
+    chosen_mass_ = true;
+  }
+
+  void note_base() {
+    const std::string& root = urdf_.model().getRoot()->name;
+    changed(urdf_.place("link", root),
+            fmt::format("link {} is the ground{}: the module has no contacts, so that new scenario writes base: fixed and no "
+                        "ground",
+                        in_quotes(root), chosen_mass_ ? ", and has a mass of 1 kg instead of none" : ""));
   }
 
   /// Adds a note on each name that was changed, other than by removing a prefix.
@@ -346,6 +373,8 @@ class BodyWalk {
   std::vector<Placed> open_;                   ///< links to read
   std::set<const urdf::Joint*> joined_;        ///< joints whose links are one body
   std::vector<const urdf::Joint*> refused_;    ///< joints that cannot be hinges and are not joined
+  std::set<std::size_t> inner_, moved_;        ///< bodies that are the parent of a joint that moves; those that one moves
+  bool chosen_mass_ = false;                   ///< true if the mass of a fixed base is chosen
   std::vector<const urdf::Link*> hidden_;      ///< links whose visual differs from their collision
 };
 
@@ -353,7 +382,7 @@ class BodyWalk {
 
 UrdfBodies urdf_bodies(const UrdfText& urdf, const std::vector<std::string>& locked, Problems& problems) {
   UrdfBodies made = BodyWalk(urdf, locked, problems).read();
-  for (const char* tag : {"transmission", "gazebo", "sensor"}) {
+  for (const char* tag : {"transmission", "gazebo", "sensor", "safety_controller", "calibration", "contact"}) {
     if (const std::size_t number = urdf.count(tag); number > 0)
       made.notes.push_back({urdf.place(), fmt::format("{} of <{}>", counted(number, "element"), tag)});
   }

@@ -9,6 +9,7 @@
 #include "core/model/pattern.h"
 #include "core/settings/joint_patterns.h"
 #include "core/settings/wording.h"
+#include "interchange/urdf_mass.h"
 
 namespace gaitlab::interchange {
 
@@ -28,17 +29,27 @@ struct JoinedGroup {
   bool mass = false, moves = false;  ///< true if it has mass; true if it is the parent of a joint that moves
 };
 
-/// Adds a problem for each name or pattern that matches no joint that moves.
-void check_locked(const std::vector<const urdf::Link*>& links, const std::vector<std::string>& locked, Problems& problems) {
+/// Names of the joints that move which `locked` fixes: the joint of that name, which may contain `*`, else those that match it
+/// as a pattern. Adds a problem for each that matches none.
+std::set<std::string> locked_joints(const std::vector<const urdf::Link*>& links, const std::vector<std::string>& locked,
+                                    Problems& problems) {
   std::vector<std::string> moving;
   for (const urdf::Link* const link : links) {
     const urdf::Joint* const joint = link->parent_joint.get();
     if (joint != nullptr && joint->type != urdf::Joint::FIXED) moving.push_back(joint->name);
   }
+  std::set<std::string> names;
   for (const std::string& one : locked) {
-    if (std::ranges::any_of(moving, [&](const std::string& name) { return glob(one, name); })) continue;
-    problems.add(SourceLocation{"--lock"}, no_joint(one, moving));
+    const bool verbatim = std::ranges::find(moving, one) != moving.end();
+    bool found = false;
+    for (const std::string& name : moving) {
+      if (verbatim ? name != one : !glob(one, name)) continue;
+      names.insert(name);
+      found = true;
+    }
+    if (!found) problems.add(SourceLocation{"--lock"}, no_joint(one, moving));
   }
+  return names;
 }
 
 }  // namespace
@@ -48,16 +59,15 @@ std::set<const urdf::Joint*> joined_joints(const UrdfText& urdf, const std::vect
   std::set<const urdf::Joint*> joined;
   std::map<const urdf::Link*, JoinedGroup> groups;
   const std::vector<const urdf::Link*> links = links_outwards(urdf.model());
-  check_locked(links, locked, problems);
+  const std::set<std::string> fixed_by_option = locked_joints(links, locked, problems);
   for (const urdf::Link* const link : std::views::reverse(links)) {
     JoinedGroup& own = groups[link];
-    own.mass = own.mass || (link->inertial != nullptr && link->inertial->mass != 0);
+    own.mass = own.mass || has_mass(*link);
     const urdf::Joint* const joint = link->parent_joint.get();
     if (joint == nullptr) continue;
     JoinedGroup& parent = groups[urdf.model().getLink(joint->parent_link_name).get()];
     const bool fixed = joint->type == urdf::Joint::FIXED;
-    const auto matches = [&](const std::string& one) { return glob(one, joint->name); };
-    const bool by_option = !fixed && std::ranges::any_of(locked, matches);
+    const bool by_option = !fixed && fixed_by_option.contains(joint->name);
     const bool frame = !fixed && !by_option && !own.mass && !own.moves;
     if (by_option) {
       notes.push_back({urdf.place("joint", joint->name),

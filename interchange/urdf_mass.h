@@ -18,6 +18,13 @@ struct UrdfMass {
   std::vector<Shape> shapes = {};  ///< of the link
 };
 
+/// True if the link has an inertial with a mass that is not 0.
+bool has_mass(const urdf::Link& link);
+
+/// Adds a problem for each number of a link, its shapes and the joints to its children that is beyond every robot: a mass that
+/// is negative or above 1e9 kg, an origin beyond 1e6 m, and a shape smaller than 1e-9 m or larger than 1e6 m.
+void check_numbers(const urdf::Link& link, const std::vector<Shape>& shapes, const UrdfText& urdf, Problems& problems);
+
 /// Sum of the masses. A single mass is returned unchanged, to the last digit.
 UrdfMass united_mass(const std::vector<UrdfMass>& parts);
 

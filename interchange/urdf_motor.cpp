@@ -12,11 +12,12 @@ namespace gaitlab::interchange {
 
 namespace {
 
-constexpr double kMostEffort = 1e5;  // N m, below which an effort is that of a motor
-constexpr double kMostSpeed = 1000;  // rad/s, of a motor behind its gear
-constexpr double kChosenSpeed = 20;  // rad/s
-constexpr double kChosenShare = 2;   // of the weight that the motor holds
-constexpr double kStandard = 9.81;   // m/s^2
+constexpr double kLeastEffort = 1e-6, kMostEffort = 1e5;  // N m, between which an effort is that of a motor
+constexpr double kLeastSpeed = 1e-3, kMostSpeed = 1000;   // rad/s, of a motor behind its gear
+constexpr double kMostTorque = 1e9;                       // N m, that the servo permits; also of friction, N m s/rad
+constexpr double kChosenSpeed = 20;                       // rad/s
+constexpr double kChosenShare = 2;                        // of the weight that the motor holds
+constexpr double kStandard = 9.81;                        // m/s^2
 
 /// Load of a hinge: mass of all that it moves, and the longest distance from its origin to a centre of mass, or radius of
 /// gyration.
@@ -42,7 +43,36 @@ std::vector<Carried> carried_by_body(const std::vector<BodyType>& bodies, const 
   return carried;
 }
 
+/// The sentence's end on numbers that are missing, or that are not those of a motor.
+std::string fault_of(const UrdfHinge& one) {
+  const bool effort_stated = one.no_effort && one.effort != kNoEffort;
+  const bool speed_stated = one.no_speed && one.speed != kNoSpeed;
+  if (one.no_effort && one.no_speed && !effort_stated && !speed_stated) return "no limit of a motor";
+  std::string text;
+  const auto add = [&](bool missing, bool stated, const char* key, double value) {
+    if (!missing) return;
+    text += text.empty() ? "" : ", and ";
+    text += stated ? fmt::format("{} {}, which counts as not stated", key, number_text(value))
+                   : fmt::format("no {} of a motor", key);
+  };
+  add(one.no_effort, effort_stated, "effort", one.effort);
+  add(one.no_speed, speed_stated, "velocity", one.speed);
+  return text;
+}
+
 double three_digits(double value) { return std::strtod(fmt::format("{:.3g}", value).c_str(), nullptr); }
+
+/// Adds a note on the hinges without a motor because of an effort of 0, which may stand for a missing number.
+void note_passive(const UrdfText& urdf, const std::vector<UrdfHinge>& hinges, std::vector<UrdfNote>& notes) {
+  const auto passive = [](const UrdfHinge& one) { return one.hinge.passive.has_value(); };
+  const auto first = std::ranges::find_if(hinges, passive);
+  if (first == hinges.end()) return;
+  const std::ptrdiff_t number = std::ranges::count_if(hinges, passive);
+  const std::string name = in_quotes(first->of->name);
+  notes.push_back({urdf.place("joint", first->of->name),
+                   fmt::format("a motor of {}, whose effort is 0",
+                               number == 1 ? "joint " + name : fmt::format("{} joints, first {}", number, name))});
+}
 
 }  // namespace
 
@@ -57,12 +87,10 @@ void read_motor(const urdf::Joint& joint, const UrdfText& urdf, UrdfHinge& hinge
   }
   hinge.dry = dynamics.friction;
   hinge.viscous = dynamics.damping;
-  if (limited) {
-    hinge.effort = joint.limits->effort;
-    hinge.speed = joint.limits->velocity;
-  }
-  hinge.no_effort = !limited || hinge.effort >= kMostEffort;
-  hinge.no_speed = !limited || hinge.speed == 0 || hinge.speed > kMostSpeed;
+  hinge.effort = limited ? joint.limits->effort : kNoEffort;
+  hinge.speed = limited ? joint.limits->velocity : kNoSpeed;
+  hinge.no_effort = hinge.effort < kLeastEffort || hinge.effort >= kMostEffort;
+  hinge.no_speed = hinge.speed < kLeastSpeed || hinge.speed > kMostSpeed;
   const auto check = [&](const char* key, double value, const char* what) {
     if (value >= 0) return;
     problems.add(urdf.place("joint", joint.name), fmt::format("joint {} has {} {}; expected {} of its motor, not negative",
@@ -70,24 +98,37 @@ void read_motor(const urdf::Joint& joint, const UrdfText& urdf, UrdfHinge& hinge
   };
   check("effort", hinge.effort, "the torque at rest, N m,");
   check("velocity", hinge.speed, "the no-load speed, rad/s,");
+  const auto check_friction = [&](const char* key, double value, const char* unit) {
+    if (value >= 0 && value <= kMostTorque) return;
+    problems.add(urdf.place("joint", joint.name),
+                 fmt::format("joint {} has {} {}; expected 0 to 1e9 {}", in_quotes(joint.name), key, number_text(value), unit));
+  };
+  check_friction("damping", hinge.viscous, "N m s/rad");
+  check_friction("friction", hinge.dry, "N m");
 }
 
 void choose_motors(const std::vector<BodyType>& bodies, const UrdfText& urdf, std::vector<UrdfHinge>& hinges,
-                   std::vector<UrdfNote>& notes) {
+                   std::vector<UrdfNote>& notes, Problems& problems) {
+  note_passive(urdf, hinges, notes);
   const std::vector<Carried> carried = carried_by_body(bodies, hinges);
   if (std::ranges::any_of(hinges, [](const UrdfHinge& one) { return !one.hinge.passive; }))
     notes.push_back({urdf.place(), "effort and velocity become the ends of a motor's line", true});
   for (UrdfHinge& one : hinges) {
     if (!one.no_effort && !one.no_speed) continue;
     const Carried& load = carried[one.hinge.child];
+    const std::string fault = fault_of(one);
     if (one.no_effort) one.effort = three_digits(kChosenShare * load.mass * kStandard * load.lever);
     if (one.no_speed) one.speed = kChosenSpeed;
-    const char* const missing = one.no_effort && one.no_speed ? "limit" : one.no_effort ? "effort" : "velocity";
-    one.source = fmt::format("chosen: the URDF has no {}", missing);
+    if (!(one.effort <= kMostTorque) && problems.empty()) {  // else the absurd number has its message
+      problems.add(urdf.place("joint", one.of->name),
+                   fmt::format("joint {} has {}, and one that holds what it moves has {} N m; expected at most 1e9 N m",
+                               in_quotes(one.of->name), fault, number_text(one.effort)));
+    }
+    one.source = "chosen: the URDF has " + fault;
     const std::string torque = fmt::format("{} N m at rest", number_text(one.effort));
     const std::string speed = fmt::format("{} rad/s without load", number_text(one.speed));
     notes.push_back({urdf.place("joint", one.of->name),
-                     fmt::format("joint {} has no {} of a motor; {} chosen", in_quotes(one.of->name), missing,
+                     fmt::format("joint {} has {}; {} chosen", in_quotes(one.of->name), fault,
                                  one.no_effort && one.no_speed ? torque + " and " + speed + " are"
                                  : one.no_effort               ? torque + " is"
                                                                : speed + " is"),

@@ -57,9 +57,19 @@ std::vector<std::string> words_of(std::string_view text, std::string_view betwee
 std::optional<std::string> forgiven(std::string_view value, std::size_t count) {
   constexpr std::string_view kBlanks = " \t\r\n";
   const bool commas = value.find(',') != std::string_view::npos;
-  if (commas && static_cast<std::size_t>(std::ranges::count(value, ',')) + 1 != count) return std::nullopt;
-  std::vector<std::string> words = words_of(value, commas ? " \t\r\n," : kBlanks);
-  if (count == 3 && words.size() == 4) words.pop_back();
+  std::vector<std::string> words;
+  if (commas) {  // one word between two commas: `0,2 0,1` has decimal commas
+    for (std::size_t at = 0; at <= value.size();) {
+      const std::size_t end = std::min(value.find(',', at), value.size());
+      const std::vector<std::string> between = words_of(value.substr(at, end - at), kBlanks);
+      if (between.size() != 1) return std::nullopt;
+      words.push_back(between.front());
+      at = end + 1;
+    }
+  } else {
+    words = words_of(value, kBlanks);
+    if (count == 3 && words.size() == 4) words.pop_back();
+  }
   if (words.size() != count) return std::nullopt;
   std::string text;
   for (std::string& word : words) {
@@ -97,7 +107,7 @@ class RepairWalk {
 
   static std::string name_of_tag(const XmlTag& tag) {
     const XmlTag::Attribute* const name = tag.attribute("name");
-    return name == nullptr ? "" : std::string(name->value);
+    return name == nullptr ? "" : decoded(std::string(name->value));
   }
   [[nodiscard]] bool in_robot(const XmlTag& tag) const {
     return tag.parent != kNoTag && tags_[tag.parent].name == "robot" && tags_[tag.parent].parent == kNoTag;
@@ -118,6 +128,8 @@ class RepairWalk {
     if (tag.parent == owner && tag.name == "limit") {
       limited_[owner] = true;
       complete_limit(tag);
+      if (tag.attribute("lower") == nullptr && tag.attribute("upper") == nullptr)
+        made_.no_ranges.insert(name_of_tag(tags_[owner]));
     }
     if (tag.name == "capsule") drop_capsule(i);
     for (const Numbers& one : number_attributes()) {
@@ -131,9 +143,9 @@ class RepairWalk {
   void drop_material(const XmlTag& tag) {
     const std::string name = name_of_tag(tag);
     if (name.empty()) {
-      note(tag.begin, "a material has no name");
+      note(tag.begin, "a material without a name", false);
     } else if (in_robot(tag) && !materials_.insert(name).second) {
-      note(tag.begin, fmt::format("material {} is stated twice", in_quotes(name)));
+      note(tag.begin, fmt::format("material {}, which is stated twice", in_quotes(name)), false);
     }
     edits_.push_back({tag.begin, tag.close_end - tag.begin, ""});
   }
@@ -142,8 +154,8 @@ class RepairWalk {
     const XmlTag& tag = tags_[i];
     const std::size_t part = tag.parent == kNoTag ? kNoTag : tags_[tag.parent].parent;
     const std::string link = name_of_tag(tags_[owner_[i]]);
-    // urdfdom decodes the names of entities, so that this name would not be found.
-    if (part == kNoTag || tags_[part].parent != owner_[i] || link.find('&') != std::string::npos) return;
+    // urdfdom decodes all characters that numbers name, so that this name would not be found.
+    if (part == kNoTag || tags_[part].parent != owner_[i] || link.find("&#") != std::string::npos) return;
     made_.capsules.insert({link, tags_[part].name == "collision", number_[part]});
     note(tag.begin,
          fmt::format("link {} has a capsule, which URDF lacks: a cylinder with a sphere at each end", in_quotes(link)));
@@ -164,18 +176,21 @@ class RepairWalk {
   void complete_limit(const XmlTag& tag) {
     const std::size_t behind_name = tag.begin + 1 + tag.name.size();
     if (tag.attribute("effort") == nullptr) edits_.push_back({behind_name, 0, no_effort()});
-    if (tag.attribute("velocity") == nullptr) edits_.push_back({behind_name, 0, " velocity=\"0\""});
+    if (tag.attribute("velocity") == nullptr) edits_.push_back({behind_name, 0, no_speed()});
   }
 
   void add_limit(const XmlTag& joint) {
     const XmlTag::Attribute* const type = joint.attribute("type");
     if (type == nullptr || (type->value != "revolute" && type->value != "prismatic")) return;
     made_.no_limits.insert(name_of_tag(joint));
-    edits_.push_back({joint.end, 0, "<limit" + no_effort() + " velocity=\"0\"/>"});
+    edits_.push_back({joint.end, 0, "<limit" + no_effort() + no_speed() + "/>"});
   }
+  static std::string no_speed() { return fmt::format(" velocity=\"{}\"", kNoSpeed); }
   static std::string no_effort() { return fmt::format(" effort=\"{}\"", kNoEffort); }
 
-  void note(std::size_t offset, const std::string& text) { made_.notes.push_back({offset, text}); }
+  void note(std::size_t offset, const std::string& text, bool changed = true) {
+    made_.notes.push_back({offset, text, changed});
+  }
 
   void apply() {
     std::ranges::stable_sort(edits_, {}, &Edit::begin);

@@ -12,6 +12,7 @@ struct UrdfRepair {
   struct Note {
     std::size_t offset;  ///< of the fault in the text of the file
     std::string text;
+    bool changed;  ///< false if it has no effect on the motion
   };
   /// A part of a link: its name, true for its collision and false for its visual, and the number of the part.
   using Part = std::tuple<std::string, bool, std::size_t>;
@@ -20,9 +21,11 @@ struct UrdfRepair {
   std::vector<Note> notes;          ///< one for each fault, in the order of the file
   std::set<Part> capsules;          ///< parts that are capsules; cylinders in `text`
   std::set<std::string> no_limits;  ///< joints without an element `limit`, which has no effort and no velocity in `text`
+  std::set<std::string> no_ranges;  ///< joints whose `limit` has neither `lower` nor `upper`
 };
 
-inline constexpr double kNoEffort = 1e9;  ///< N m, in `text` in the place of a missing effort; a missing velocity is 0
+inline constexpr double kNoEffort = 1.25e307;  ///< N m, in `text` in the place of a missing effort; see also kNoSpeed
+inline constexpr double kNoSpeed = 1.25e307;   ///< rad/s, in the place of a missing velocity
 
 /// Repairs a URDF file:
 /// - materials are removed, because no part of a module has one; a note if one has no name or that of another;

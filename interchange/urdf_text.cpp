@@ -7,12 +7,14 @@
 #include <algorithm>
 #include <exception>
 #include <map>
+#include <set>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "core/settings/text_file.h"
 #include "core/settings/wording.h"
+#include "interchange/xml_tags.h"
 
 namespace gaitlab::interchange {
 
@@ -140,6 +142,19 @@ void UrdfText::check_tree() const {
                              in_quotes(first->second), in_quotes(name)));
   }
   problems.raise();
+  std::vector<const urdf::Link*> reached{model_->getRoot().get()};
+  for (std::size_t i = 0; i < reached.size(); ++i) {
+    for (const urdf::LinkSharedPtr& child : reached[i]->child_links) reached.push_back(child.get());
+  }
+  const std::set<const urdf::Link*> tree(reached.begin(), reached.end());
+  const auto lost = std::ranges::find_if(model_->links_, [&](const auto& link) { return !tree.contains(link.second.get()); });
+  if (lost == model_->links_.end()) return;
+  const std::size_t others = model_->links_.size() - tree.size() - 1;
+  throw InputError(
+      place("link", lost->first),
+      fmt::format("link {}{} is not connected to the root link {}; expected one tree, without loops of joints",
+                  in_quotes(lost->first), others == 0 ? "" : fmt::format(", like {},", counted(others, "other link")),
+                  in_quotes(model_->getRoot()->name)));
 }
 
 std::vector<UrdfNote> UrdfText::repairs() const {
@@ -152,7 +167,7 @@ std::vector<UrdfNote> UrdfText::repairs() const {
       place.line += ends ? 1 : 0;
       place.column = ends ? 1 : place.column + 1;
     }
-    notes.push_back({place, note.text, true});
+    notes.push_back({place, note.text, note.changed});
   }
   return notes;
 }
@@ -169,7 +184,7 @@ std::size_t UrdfText::find(const std::string& tag, std::size_t from) const {
 SourceLocation UrdfText::place(const std::string& tag, const std::string& name, bool last) const {
   std::size_t found = std::string::npos;
   for (std::size_t at = find(tag, 0); at != std::string::npos && (last || found == std::string::npos); at = find(tag, at + 1)) {
-    const std::string head = text_.substr(at, text_.find('>', at) - at);
+    const std::string head = decoded(text_.substr(at, text_.find('>', at) - at));
     const bool named =
         head.find("name=\"" + name + '"') != std::string::npos || head.find("name='" + name + '\'') != std::string::npos;
     // Elements <joint> of a transmission do not have a type.

@@ -23,6 +23,8 @@ class UrdfText {
   [[nodiscard]] std::vector<UrdfNote> repairs() const;
   /// True if the joint has a range, but no element `limit`.
   [[nodiscard]] bool lacks_limit(const std::string& joint) const { return repair_.no_limits.contains(joint); }
+  /// True if the joint has an element `limit` with neither `lower` nor `upper`.
+  [[nodiscard]] bool lacks_range(const std::string& joint) const { return repair_.no_ranges.contains(joint); }
   /// True if a part of a link's collision or visual, a cylinder in the model, is a capsule.
   [[nodiscard]] bool is_capsule(const std::string& link, bool collision, std::size_t part) const {
     return repair_.capsules.contains({link, collision, part});
@@ -39,8 +41,8 @@ class UrdfText {
   [[nodiscard]] std::size_t find(const std::string& tag, std::size_t from) const;
 
   [[nodiscard]] SourceLocation place_of(std::size_t offset) const;
-  /// Throws InputError if a link is the child of two joints. urdfdom accepts it, and the paths to such links are as many as 2
-  /// to the power of their number.
+  /// Throws InputError if a link is the child of two joints, or if links are joined in a loop without connection to the root.
+  /// urdfdom accepts both: the paths to the first are as many as 2 to the power of their number, and the second are in no path.
   void check_tree() const;
   /// Place of the link or joint that one of urdfdom's messages names; the file if the message names neither.
   [[nodiscard]] SourceLocation place_in(const std::vector<std::string>& messages) const;

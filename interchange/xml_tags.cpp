@@ -1,6 +1,9 @@
 #include "interchange/xml_tags.h"
 
 #include <algorithm>
+#include <charconv>
+#include <system_error>
+#include <utility>
 
 namespace gaitlab::interchange {
 
@@ -84,6 +87,25 @@ std::vector<XmlTag> xml_tags(std::string_view text) {
     }
   }
   return tags;
+}
+
+std::string decoded(std::string text) {
+  constexpr std::pair<std::string_view, char> kNames[] = {
+      {"&amp;", '&'}, {"&lt;", '<'}, {"&gt;", '>'}, {"&quot;", '"'}, {"&apos;", '\''}};
+  for (std::size_t at = text.find('&'); at != std::string::npos; at = text.find('&', at + 1)) {
+    const auto* const named =
+        std::ranges::find_if(kNames, [&](const auto& one) { return text.compare(at, one.first.size(), one.first) == 0; });
+    if (named != std::end(kNames)) text.replace(at, named->first.size(), 1, named->second);
+    if (named != std::end(kNames) || text.compare(at, 2, "&#") != 0) continue;
+    const bool hexadecimal = text.compare(at + 2, 1, "x") == 0;
+    int number = 0;
+    const char* const digits = text.data() + at + (hexadecimal ? 3 : 2);
+    const char* const end = text.data() + text.size();
+    const auto [after, error] = std::from_chars(digits, end, number, hexadecimal ? 16 : 10);
+    if (error == std::errc() && after < end && *after == ';' && number > 0 && number < 128)
+      text.replace(at, static_cast<std::size_t>(after + 1 - (text.data() + at)), 1, static_cast<char>(number));
+  }
+  return text;
 }
 
 }  // namespace gaitlab::interchange

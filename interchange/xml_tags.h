@@ -1,6 +1,7 @@
 // Tags of an XML text with their offsets.
 #pragma once
 #include <cstddef>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -26,5 +27,8 @@ struct XmlTag {
 /// Elements of a text without comments, in its order. Closing tags that do not belong to the innermost open element are
 /// skipped: a later parser refuses such a text. The cost is linear in the length of the text.
 std::vector<XmlTag> xml_tags(std::string_view text);
+
+/// A text with characters in the place of their five names, such as `&amp;`, and of ASCII numbers, such as `&#10;`.
+std::string decoded(std::string text);
 
 }  // namespace gaitlab::interchange

@@ -7,8 +7,8 @@
 #include <string>
 
 #include "app/shell/commands.h"
-#include "app/shell/shell_word.h"
 #include "core/settings/data_folder.h"
+#include "core/settings/shell_word.h"
 
 namespace gaitlab::app {
 

@@ -13,10 +13,10 @@
 
 #include "app/shell/commands.h"
 #include "app/shell/progress.h"
-#include "app/shell/shell_word.h"
 #include "core/errors.h"
 #include "core/files/atomic_file.h"
 #include "core/recording/column_names.h"
+#include "core/settings/shell_word.h"
 #include "core/simulation/batch_limits.h"
 #include "golden/advice.h"
 #include "golden/cases.h"

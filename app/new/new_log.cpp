@@ -6,10 +6,10 @@
 #include <numbers>
 
 #include "app/shell/commands.h"
-#include "app/shell/shell_word.h"
 #include "core/files/atomic_file.h"
 #include "core/robot_files/servo_file.h"
 #include "core/settings/reader.h"
+#include "core/settings/shell_word.h"
 #include "core/settings/wording.h"
 #include "identify/trajectories.h"
 

@@ -12,8 +12,8 @@
 #include "app/app.h"
 #include "app/shell/command_line.h"
 #include "app/shell/commands.h"
-#include "app/shell/shell_word.h"
 #include "core/errors.h"
+#include "core/settings/shell_word.h"
 
 namespace gaitlab::app {
 

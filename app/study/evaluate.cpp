@@ -8,11 +8,11 @@
 #include <set>
 #include <thread>
 
-#include "app/shell/shell_word.h"
 #include "app/study/asking.h"
 #include "app/study/study_quantities.h"
 #include "app/study/study_text.h"
 #include "app/study/sweep_arguments.h"
+#include "core/settings/shell_word.h"
 #include "studies/run/asked.h"
 #include "studies/run/question.h"
 #include "studies/run/runner.h"

@@ -6,7 +6,6 @@
 #include <csignal>
 
 #include "app/shell/commands.h"
-#include "app/shell/shell_word.h"
 #include "app/study/asking.h"
 #include "app/study/optimize_seeds.h"
 #include "app/study/own_gait.h"
@@ -18,6 +17,7 @@
 #include "app/study/verification_text.h"
 #include "core/errors.h"
 #include "core/files/file_kind.h"
+#include "core/settings/shell_word.h"
 #include "core/settings/wording.h"
 #include "studies/search/candidates.h"
 #include "studies/search/optimizer.h"

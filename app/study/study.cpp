@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "app/shell/commands.h"
-#include "app/shell/shell_word.h"
 #include "app/study/study_quantities.h"
 #include "app/study/study_text.h"
+#include "core/settings/shell_word.h"
 #include "core/settings/wording.h"
 #include "kit/stored_scenario.h"
 #include "studies/journal/study_folder.h"

@@ -6,12 +6,12 @@
 #include <cstdlib>
 #include <thread>
 
-#include "app/shell/shell_word.h"
 #include "app/study/study_quantities.h"
 #include "core/build_id.h"
 #include "core/errors.h"
 #include "core/files/atomic_file.h"
 #include "core/scenario/height_file.h"
+#include "core/settings/shell_word.h"
 #include "core/settings/shipped_files.h"
 #include "core/settings/wording.h"
 #include "core/simulation/batch_limits.h"

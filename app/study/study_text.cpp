@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <charconv>
 
-#include "app/shell/shell_word.h"
 #include "app/study/importance_text.h"
 #include "app/study/quantity_text.h"
 #include "app/study/study_sensitivity.h"
 #include "app/study/verification_text.h"
 #include "core/recording/csv.h"
+#include "core/settings/shell_word.h"
 #include "core/settings/wording.h"
 #include "studies/study/number.h"
 

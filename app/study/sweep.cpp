@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "app/shell/commands.h"
-#include "app/shell/shell_word.h"
 #include "app/study/own_gait.h"
 #include "app/study/quantity_text.h"
 #include "app/study/study_progress.h"
@@ -13,6 +12,7 @@
 #include "app/study/study_text.h"
 #include "app/study/sweep_arguments.h"
 #include "core/errors.h"
+#include "core/settings/shell_word.h"
 #include "core/settings/wording.h"
 #include "studies/run/again.h"
 #include "studies/run/answers.h"

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "app/shell/shell_word.h"
 #include "core/files/file_kind.h"
+#include "core/settings/shell_word.h"
 #include "core/settings/wording.h"
 #include "studies/study/parameter_file.h"
 #include "studies/study/study_file.h"

@@ -7,12 +7,12 @@
 #include <optional>
 
 #include "app/gait/run_time.h"
-#include "app/shell/shell_word.h"
 #include "app/shell/stop_on_signal.h"
 #include "app/swap/swapped.h"
 #include "core/errors.h"
 #include "core/files/atomic_file.h"
 #include "core/recording/run_folder.h"
+#include "core/settings/shell_word.h"
 #include "core/simulation/batch_limits.h"
 #include "golden/report.h"
 #include "report/figures/paper/paper_figure.h"

@@ -111,7 +111,8 @@ TEST_F(FromUrdf, MotorsAndPassiveHinges) {
   EXPECT_EQ(notes(), (Texts{"0 Changed: effort and velocity become the ends of a motor's line",
                             "0 Not carried over: 1 element of <transmission>", "0 Not carried over: 2 elements of <gazebo>",
                             "6 Not carried over: the name of joint 'dock', which is dock_2 here",
-                            "7 Not carried over: the name of joint 'x y', which is x_y here"}));
+                            "7 Not carried over: the name of joint 'x y', which is x_y here",
+                            "8 Not carried over: a motor of joint 'free', whose effort is 0"}));
 }
 
 /// Motors of joints without a limit hold twice the weight of all that they move, at its full lever: T = 2 m g L. The stretched
@@ -119,18 +120,16 @@ TEST_F(FromUrdf, MotorsAndPassiveHinges) {
 /// One message lists everything that a module cannot contain, in the order of the file.
 TEST_F(FromUrdf, RefusesInOneList) {
   const std::string mesh = "<visual><geometry><mesh filename='a.stl'/></geometry></visual>";
-  EXPECT_EQ(
-      refused(urdf_link("a", kInertial + mesh) + urdf_link("b") + urdf_link("c") + urdf_link("d") + urdf_link("e") +
-              urdf_joint("ad", "prismatic", "a", "d", kLimit) + urdf_joint("ac", "floating", "a", "c", "") +
-              urdf_joint("ab", "planar", "a", "b", "") +
-              urdf_joint("ae", "revolute", "a", "e", "<limit lower='-1' upper='1' effort='-1' velocity='-2'/>")),
-      "r:2:1: error: link 'a' has the mesh 'a.stl'; expected box, cylinder or sphere, at least as collision\n"
-      "r:7:1: error: joint 'ad' is prismatic; a module has hinges; they are fixed at 0 by --lock \"ad\" --lock \"ac\" --lock "
-      "\"ab\"\n"
-      "r:8:1: error: joint 'ac' is floating; a module has hinges\n"
-      "r:9:1: error: joint 'ab' is planar; a module has hinges\n"
-      "r:10:1: error: joint 'ae' has effort -1; expected the torque at rest, N m, of its motor, not negative\n"
-      "r:10:1: error: joint 'ae' has velocity -2; expected the no-load speed, rad/s, of its motor, not negative");
+  EXPECT_EQ(refused(urdf_link("a", kInertial + mesh) + urdf_link("b") + urdf_link("c") + urdf_link("d") + urdf_link("e") +
+                    urdf_joint("ad", "prismatic", "a", "d", kLimit) + urdf_joint("ac", "floating", "a", "c", "") +
+                    urdf_joint("ab", "planar", "a", "b", "") +
+                    urdf_joint("ae", "revolute", "a", "e", "<limit lower='-1' upper='1' effort='-1' velocity='-2'/>")),
+            "r:2:1: error: link 'a' has the mesh 'a.stl'; expected box, cylinder or sphere, at least as collision\n"
+            "r:7:1: error: joint 'ad' is prismatic; a module has hinges; they are fixed at 0 by --lock ad --lock ac --lock ab\n"
+            "r:8:1: error: joint 'ac' is floating; a module has hinges\n"
+            "r:9:1: error: joint 'ab' is planar; a module has hinges\n"
+            "r:10:1: error: joint 'ae' has effort -1; expected the torque at rest, N m, of its motor, not negative\n"
+            "r:10:1: error: joint 'ae' has velocity -2; expected the no-load speed, rad/s, of its motor, not negative");
   EXPECT_EQ(refused(urdf_link("a", "")),
             "r:2:1: error: link 'a' has no mass; expected inertial (only a link between two hinges may have none)");
   EXPECT_EQ(refused(urdf_link("a") + urdf_link("b")),
@@ -179,9 +178,44 @@ TEST_F(FromUrdf, TheLinkWorldIsTheBase) {
   EXPECT_EQ(type.bodies[0].name, "a");
   EXPECT_EQ(notes(),
             (Texts{"2 Not carried over: link 'world' and floating joint 'f': the base of a scenario floats by default"}));
-  read_urdf(urdf_link("world", "") + urdf_link("a") + urdf_joint("f", "fixed", "world", "a", ""));
-  EXPECT_EQ(notes(),
-            (Texts{"4 Not carried over: the fixed base of link 'world'; a scenario fixes it with robot: {base: fixed}"}));
+}
+
+/// A root without mass is the ground if it is the link `world`, or if all its joints are locked.
+TEST_F(FromUrdf, ARootOnTheGround) {
+  const std::string box = std::string(kInertial) + "<collision><geometry><box size='1 1 1'/></geometry></collision>";
+  const std::string ground =
+      "2 Changed: link 'world' is the ground: the module has no contacts, so that new scenario writes base: fixed and no "
+      "ground";
+  const std::string none = "<inertial><mass value='0'/><inertia ixx='0' iyy='0' izz='0' ixy='0' ixz='0' iyz='0'/></inertial>";
+  const std::string links = urdf_link("a", box) + urdf_link("b", box);
+  const std::string joint = urdf_joint("j", "revolute", "a", "b", kLimit);
+  for (const std::string& inertial : {std::string(), none}) {
+    const ModuleType type =
+        read_urdf(urdf_link("world", inertial) + links + urdf_joint("f", "fixed", "world", "a", "") + joint);
+    EXPECT_EQ(notes().at(1), ground);
+    EXPECT_TRUE(type.all.empty());
+    EXPECT_EQ(type.bodies.at(0).name, "a") << "the first with mass";
+  }
+  read_urdf(urdf_link("world", "") + links + urdf_joint("f", "fixed", "world", "a", "") +
+            urdf_joint("g", "fixed", "world", "b", ""));
+  EXPECT_EQ(notes(), Texts{ground}) << "several";
+  read_urdf(urdf_link("map", "") + links + urdf_joint("f", "fixed", "map", "a", "") + joint);
+  EXPECT_EQ(notes().size(), 1U) << "another name may be a frame of a robot that moves";
+  for (const std::string type : {"prismatic", "floating", "planar"}) {
+    for (const std::string root : {"world", "rail"}) {
+      const std::string robot = urdf_link(root, "") + links + urdf_joint("p", type, root, "a", kLimit) + joint;
+      locked_ = {};
+      if (type != "floating") {
+        EXPECT_TRUE(refused(robot).starts_with("r:5:1: error: joint 'p' is " + type)) << refused(robot);
+        EXPECT_FALSE(contains(refused(robot), "no mass")) << "--lock is enough";
+      }
+      locked_ = {"p"};
+      EXPECT_TRUE(read_urdf(robot).all.empty()) << type;
+      ASSERT_EQ(notes().size(), 3U) << type;
+      EXPECT_TRUE(contains(notes()[1], "is the ground: ")) << notes()[1];
+      EXPECT_EQ(notes()[2], "5 Changed: joint 'p' is fixed at 0, as --lock asks");
+    }
+  }
 }
 
 TEST_F(FromUrdf, NamesThatChangeAreNoted) {
@@ -227,6 +261,18 @@ TEST_F(FromUrdf, RefusesALinkWithTwoParents) {
       chain += urdf_joint(fmt::format("{}{}", name, k), "fixed", fmt::format("l{}", k), fmt::format("l{}", k + 1), "");
   }
   EXPECT_TRUE(contains(refused(chain), "r:5:1: error: link 'l1' is the child of joints 'a0' and 'b0'; expected one tree\n"));
+}
+
+/// urdfdom drops links that are joined in a loop, because no path from the root leads to them.
+TEST_F(FromUrdf, RefusesALoopBesideTheTree) {
+  const std::string robot = urdf_link("a") + urdf_link("b") + urdf_joint("j", "revolute", "a", "b", kLimit) + urdf_link("c");
+  EXPECT_EQ(refused(robot + urdf_joint("k", "revolute", "c", "c", kLimit)),
+            "r:5:1: error: link 'c' is not connected to the root link 'a'; expected one tree, without loops of joints");
+  EXPECT_EQ(
+      refused(robot + urdf_link("d") + urdf_joint("k", "revolute", "c", "d", kLimit) +
+              urdf_joint("l", "revolute", "d", "c", kLimit)),
+      "r:5:1: error: link 'c', like 1 other link, is not connected to the root link 'a'; expected one tree, without loops "
+      "of joints");
 }
 
 /// These elements are nested so deeply that the parser's stack would overflow.

@@ -21,7 +21,7 @@ TEST_F(FromUrdf, ForgivesWhatOthersForgive) {
   };
   const Row rows[] = {
       {"<visual><geometry><box size='1 1 1'/></geometry><material><color rgba='1 x'/></material></visual>" + box,
-       first + kLimit, "3 Changed: a material has no name"},
+       first + kLimit, "3 Not carried over: a material without a name"},
       {shape("<box size='1, 1,1'/>"), first + kLimit, "3 Changed: size=\"1, 1,1\" is read as 1 1 1"},
       {shape("<box size='1 1 1'/>").insert(11, "<origin xyz='1 2 3 4'/>"), first + kLimit,
        "3 Changed: xyz=\"1 2 3 4\" is read as 1 2 3"},
@@ -34,6 +34,15 @@ TEST_F(FromUrdf, ForgivesWhatOthersForgive) {
       {box, first, "4 Changed: joint 'j' has no limit; it turns freely"},
       {box, "<limit lower='-1' upper='1' velocity='3'/>",
        "4 Changed: joint 'j' has no effort of a motor; 3.92 N m at rest is chosen"},
+      {box, "<limit effort='3' velocity='2'/>", "4 Changed: joint 'j' has no range; it turns freely"},
+      {box, "<limit lower='-1' upper='1' effort='1e9' velocity='0'/>",
+       "4 Changed: joint 'j' has effort 1000000000, which counts as not stated, and velocity 0, which counts as not stated; "
+       "3.92 "
+       "N m at rest and 20 rad/s without load are chosen"},
+      {box, "<limit lower='-1' upper='1' velocity='1e-300'/>",
+       "4 Changed: joint 'j' has no effort of a motor, and velocity 1e-300, which counts as not stated; 3.92 N m at rest and "
+       "20 "
+       "rad/s without load are chosen"},
       {box, "<limit lower='-1' upper='1' effort='3'/>",
        "4 Changed: joint 'j' has no velocity of a motor; 20 rad/s without load is chosen"},
       {box, first + "<limit lower='-1 ' upper=' 1' effort='3' velocity='2'/>", ""},
@@ -50,13 +59,13 @@ TEST_F(FromUrdf, ForgivesWhatOthersForgive) {
     EXPECT_EQ(body_of(type, "b").shapes.at(0).size, Vec3::Ones()) << row.note;
   }
   read_urdf("<material name='red'><color rgba='1 0 0 1'/></material>\n<material name='red'/>\n" + urdf_link("a"));
-  EXPECT_EQ(notes(), Texts{"3 Changed: material 'red' is stated twice"});
+  EXPECT_EQ(notes(), Texts{"3 Not carried over: material 'red', which is stated twice"});
 }
 
 /// Numbers with two meanings are refused, with urdfdom's message: a decimal comma, a vector of two numbers.
 TEST_F(FromUrdf, DoesNotGuessNumbers) {
-  for (const std::string origin :
-       {"xyz='0,5 1 2'", "xyz='1 2'", "xyz='1,2,3,4'", "xyz='1..0 2 3'", "xyz='1 2 x 3'", "rpy='0,5'"}) {
+  for (const std::string origin : {"xyz='0,5 1 2'", "xyz='1 2'", "xyz='1,2,3,4'", "xyz='0,2 0,1'", "xyz='1,,2 3'",
+                                   "xyz='1..0 2 3'", "xyz='1 2 x 3'", "rpy='0,5'"}) {
     EXPECT_TRUE(contains(
         refused(urdf_link("a") + urdf_link("b") + urdf_joint("j", "revolute", "a", "b", "<origin " + origin + "/>" + kLimit)),
         "error: urdfdom: "))
@@ -94,16 +103,19 @@ TEST_F(FromUrdf, MotorsAreChosenWithoutALimit) {
       urdf_joint("bw", "continuous", "b", "s", "<limit effort='3' velocity='7'/>"));
   const double first = 2 * 9.81 * (2 + 3 + 2) * 0.8;
   const double second = 2 * 9.81 * 3 * 0.5;
-  EXPECT_EQ(notes(),
-            (Texts{"0 Changed: effort and velocity become the ends of a motor's line",
-                   fmt::format(
-                       "7 Changed: joint 'ab' has no limit of a motor; {:.3g} N m at rest and 20 rad/s without load are chosen",
-                       first),
-                   fmt::format("8 Changed: joint 'bc' has no effort of a motor; {:.3g} N m at rest is chosen", second),
-                   "9 Changed: joint 'aw' has no velocity of a motor; 20 rad/s without load is chosen"}));
-  EXPECT_TRUE(contains(made_.text, fmt::format("    actuator: {{stall_torque: {:.3g}, no_load_speed: 20, dry_friction: 0, "
-                                               "viscous_friction: 0.7, source: \"chosen: the URDF has no limit\"}}\n",
-                                               first)))
+  EXPECT_EQ(
+      notes(),
+      (Texts{
+          "0 Changed: effort and velocity become the ends of a motor's line",
+          fmt::format("7 Changed: joint 'ab' has no limit of a motor; {:.3g} N m at rest and 20 rad/s without load are chosen",
+                      first),
+          fmt::format("8 Changed: joint 'bc' has effort 100000, which counts as not stated; {:.3g} N m at rest is chosen",
+                      second),
+          "9 Changed: joint 'aw' has velocity 1001, which counts as not stated; 20 rad/s without load is chosen"}));
+  EXPECT_TRUE(
+      contains(made_.text, fmt::format("    actuator: {{stall_torque: {:.3g}, no_load_speed: 20, dry_friction: 0, "
+                                       "viscous_friction: 0.7, source: \"chosen: the URDF has no limit of a motor\"}}\n",
+                                       first)))
       << made_.text;
   EXPECT_TRUE(contains(made_.text, "actuator: {type: servo, voltage: 12, stall_torque: 3, no_load_speed: 7,")) << made_.text;
 }
@@ -111,7 +123,7 @@ TEST_F(FromUrdf, MotorsAreChosenWithoutALimit) {
 TEST_F(FromUrdf, AWheelWithoutALimit) {
   read_urdf(urdf_link("a") + urdf_link("b") + urdf_joint("j", "continuous", "a", "b", ""));
   EXPECT_TRUE(contains(made_.text, "stall_torque: 3.92, no_load_speed: 20,")) << made_.text;
-  EXPECT_TRUE(contains(made_.text, "source: \"chosen: the URDF has no limit; the voltage, because URDF has none\""))
+  EXPECT_TRUE(contains(made_.text, "source: \"chosen: the URDF has no limit of a motor; the voltage, because URDF has none\""))
       << made_.text;
 }
 
@@ -124,7 +136,7 @@ TEST_F(FromUrdf, LockedJointsAreFixed) {
       urdf_joint("finger_2", "revolute", "hand", "finger_r",
                  "<mimic joint='wrist'/><limit lower='-1' upper='1' effort='1' velocity='1'/>");
   EXPECT_EQ(refused(robot),
-            "r:7:1: error: joint 'finger_1' is prismatic; a module has hinges; it is fixed at 0 by --lock \"finger_1\"");
+            "r:7:1: error: joint 'finger_1' is prismatic; a module has hinges; it is fixed at 0 by --lock finger_1");
   locked_ = {"finger_1"};
   const ModuleType one = read_urdf(robot);
   EXPECT_EQ(one.hinges.size(), 2U);
@@ -134,11 +146,37 @@ TEST_F(FromUrdf, LockedJointsAreFixed) {
   EXPECT_EQ(notes(), (Texts{"0 Changed: effort and velocity become the ends of a motor's line",
                             "7 Changed: joint 'finger_1' is fixed at 0, as --lock asks",
                             "8 Changed: joint 'finger_2' mimics 'wrist'; it moves independently, or is fixed by --lock "
-                            "\"finger_2\""}));
+                            "finger_1 --lock finger_2"}));
   locked_ = {"finger*"};
   EXPECT_EQ(read_urdf(robot).hinges.size(), 1U);
   locked_ = {"wrists"};
   EXPECT_TRUE(contains(refused(robot), "--lock: error: no joint 'wrists'; did you mean 'wrist'?")) << refused(robot);
+}
+
+/// The offered options can be copied to a shell, and fix these joints alone, whatever their names.
+TEST_F(FromUrdf, LockedNamesAreVerbatim) {
+  const std::string slide = "<limit lower='0' upper='1' effort='1' velocity='1'/>";
+  const std::string robot = urdf_link("a") + urdf_link("b") + urdf_link("c") + urdf_link("d") +
+                            urdf_joint("g*", "prismatic", "a", "b", slide) + urdf_joint("g$(x)", "revolute", "a", "c", kLimit) +
+                            urdf_joint("it&apos;s", "prismatic", "a", "d", slide);
+  EXPECT_TRUE(contains(refused(robot), "they are fixed at 0 by --lock 'g*' --lock 'it'\\''s'\n")) << refused(robot);
+  locked_ = {"g*"};
+  EXPECT_TRUE(contains(refused(robot), "it is fixed at 0 by --lock 'g*' --lock 'it'\\''s'")) << refused(robot);
+  locked_ = {"g*", "it's"};
+  EXPECT_EQ(read_urdf(robot).hinges.size(), 1U);
+}
+
+/// Parts without an effect on the motion are notes, not changes.
+TEST_F(FromUrdf, DroppedPartsAreNoted) {
+  const std::string drop = "<safety_controller k_velocity='1'/><calibration rising='0.1'/>";
+  const std::string limit = kLimit;
+  read_urdf(urdf_link("a", std::string(kInertial) + "<contact><lateral_friction value='1'/></contact>") + urdf_link("b") +
+            urdf_link("c") + urdf_joint("j", "revolute", "a", "b", limit + drop) +
+            urdf_joint("k", "revolute", "b", "c", "<limit lower='-1' upper='1' effort='0' velocity='0'/>" + drop));
+  EXPECT_EQ(notes(), (Texts{"0 Changed: effort and velocity become the ends of a motor's line",
+                            "0 Not carried over: 2 elements of <safety_controller>",
+                            "0 Not carried over: 2 elements of <calibration>", "0 Not carried over: 1 element of <contact>",
+                            "6 Not carried over: a motor of joint 'k', whose effort is 0"}));
 }
 
 std::string inertial(double mass, const Vec3& moments, const std::string& more = "ixy='0' ixz='0' iyz='0'") {
@@ -177,6 +215,10 @@ TEST_F(FromUrdf, ImpossibleInertiasAreThoseOfTheShapes) {
     ASSERT_EQ(notes().size(), 1U);
     EXPECT_TRUE(contains(notes()[0], "those of its shapes are taken: 0.025, 0.05, 0.065 kg m^2")) << notes()[0];
   }
+  std::string many;
+  for (int k = 0; k < 200; ++k) many += box;
+  read_urdf(urdf_link("a", inertial(6, Vec3::Zero()) + many));
+  EXPECT_TRUE(contains(notes()[0], "those of a ball of water are taken")) << notes()[0];
   const BodyType ball = read_urdf(urdf_link("a", inertial(6, Vec3::Zero()))).bodies[0];
   const double radius = std::cbrt(6 / (4 * std::numbers::pi / 3 * 1000));
   EXPECT_NEAR(ball.inertia(1, 1), 0.4 * 6 * radius * radius, 1e-15);
@@ -190,6 +232,52 @@ TEST_F(FromUrdf, AFaultThatTheBodyDoesNotHaveIsKept) {
   EXPECT_EQ(notes(), Texts{});
 }
 
+/// urdfdom has the characters of XML's names such as &amp;; the notes are those of the joint as it is written.
+TEST_F(FromUrdf, NamesWithEntitiesKeepTheirRules) {
+  const std::string capsule = "<collision><geometry><capsule radius='0.1' length='1'/></geometry></collision>";
+  const ModuleType type = read_urdf(urdf_link("a&lt;", kInertial + capsule) + urdf_link("b") +
+                                    urdf_joint("j&amp;&#107;", "revolute", "a&lt;", "b", "<axis xyz='0 1 0'/>"));
+  EXPECT_EQ(notes().at(2), "2 Changed: link 'a<' has a capsule, which URDF lacks: a cylinder with a sphere at each end");
+  EXPECT_EQ(notes().at(3), "4 Changed: joint 'j&k' has no limit; it turns freely");
+  EXPECT_EQ(type.bodies[0].shapes.size(), 3U);
+}
+
+/// Numbers that the scenario would refuse, or with which a run would diverge, are refused with their line.
+TEST_F(FromUrdf, RefusesAbsurdNumbers) {
+  const auto with_joint = [&](const std::string& link, const std::string& content) {
+    return refused(urdf_link("a") + urdf_link("b", link) + urdf_joint("j", "revolute", "a", "b", content));
+  };
+  const auto box = [](const std::string& size, const std::string& at) {
+    return std::string(kInertial) + "<collision><origin xyz='" + at + "'/><geometry><box size='" + size +
+           "'/></geometry></collision>";
+  };
+  const std::string limit = kLimit;
+  EXPECT_EQ(with_joint(kInertial, limit + "<dynamics damping='-0.1' friction='2e9'/>"),
+            "r:4:1: error: joint 'j' has damping -0.1; expected 0 to 1e9 N m s/rad\n"
+            "r:4:1: error: joint 'j' has friction 2000000000; expected 0 to 1e9 N m");
+  EXPECT_EQ(with_joint(inertial(1e300, Vec3::Ones()), limit),
+            "r:3:1: error: link 'b' has mass 1e+300 kg; expected at most 1e9 kg");
+  EXPECT_EQ(with_joint(kInertial, limit + "<origin xyz='1e300 0 0'/>"),
+            "r:4:1: error: joint 'j' has its origin too far from that of its parent; expected at most 1000000 m");
+  EXPECT_EQ(with_joint(box("1e-320 1 1", "0 0 0"), limit),
+            "r:3:1: error: link 'b' has a shape of 1e-320 m; expected 1e-9 m to 1e6 m");
+  EXPECT_EQ(with_joint(box("1 1 1", "0 9e9 0"), limit),
+            "r:3:1: error: link 'b' has a shape too far from its origin; expected at most 1000000 m");
+  EXPECT_TRUE(contains(with_joint(inertial(1e9, Vec3(1, 1, 1)).insert(10, "<origin xyz='1e6 0 0'/>"), ""),
+                       "r:4:1: error: joint 'j' has no limit of a motor, and one that holds what it moves has "));
+}
+
+/// Its sum with the mass of the link before it would hide a negative mass.
+TEST_F(FromUrdf, MassesOfJoinedLinksAreChecked) {
+  const auto joined = [](double mass) {
+    return urdf_link("a") + urdf_link("b", inertial(mass, Vec3(9, 9, 9))) + urdf_joint("f", "fixed", "a", "b", "");
+  };
+  EXPECT_EQ(refused(joined(-1)),
+            "r:3:1: error: link 'b' has mass -1 kg; expected more than 0 (only a link between two hinges may have none)");
+  EXPECT_EQ(read_urdf(joined(0)).bodies[0].inertia(0, 0), 0.01);
+  EXPECT_EQ(notes(), Texts{"3 Changed: link 'b' has mass 0; its inertia counts as 0"});
+}
+
 /// A root without mass that a hinge moves stands still. Its mass of 1 kg has the inertia of its shapes, m (b^2 + c^2) / 12.
 TEST_F(FromUrdf, ARootWithoutMassIsAFixedBase) {
   const std::string box = "<collision><geometry><box size='0.1 0.2 0.3'/></geometry></collision>";
@@ -198,9 +286,10 @@ TEST_F(FromUrdf, ARootWithoutMassIsAFixedBase) {
   EXPECT_EQ(body_of(type, "stand").mass, 1);
   EXPECT_NEAR(body_of(type, "stand").inertia(0, 0), (0.04 + 0.09) / 12, 1e-16);
   EXPECT_TRUE(type.all.empty()) << "without contacts, new scenario fixes the base";
-  EXPECT_EQ(notes().at(1),
-            "2 Changed: link 'stand' has no mass, and a joint moves the rest: the base is fixed, its mass is 1 kg; a scenario "
-            "fixes it with robot: {base: fixed}");
+  EXPECT_EQ(
+      notes().at(1),
+      "2 Changed: link 'stand' is the ground, and has a mass of 1 kg instead of none: the module has no contacts, so that "
+      "new scenario writes base: fixed and no ground");
   const ModuleType bare =
       read_urdf(urdf_link("stand", "") + urdf_link("arm") + urdf_joint("j", "revolute", "stand", "arm", kLimit));
   EXPECT_NEAR(body_of(bare, "stand").inertia(0, 0), 0.4 * std::pow(3 / (4 * std::numbers::pi * 1000), 2.0 / 3), 1e-15)

@@ -1,8 +1,12 @@
-#include "app/shell/shell_word.h"
+// A word of a command line for the shell.
+#pragma once
+#include <string>
+#include <string_view>
 
-namespace gaitlab::app {
+namespace gaitlab {
 
-std::string shell_word(const std::string& word) {
+/// A word as one argument of a command line, in quotes if the shell requires them.
+inline std::string shell_word(const std::string& word) {
   constexpr std::string_view kPlain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_./=:,+-@%";
   if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
   std::string quoted = "'";
@@ -10,4 +14,4 @@ std::string shell_word(const std::string& word) {
   return quoted + "'";
 }
 
-}  // namespace gaitlab::app
+}  // namespace gaitlab
