@@ -16,7 +16,7 @@ namespace {
 
 using namespace identify;
 
-const Label kLongTrajectories("Trajectories.LogsOfThemHaveTheNumbersOfTheServo", "long");
+const Label kLongTrajectories("Trajectories.LogsOfThemHaveTheNumbersOfTheServo", "long;unsanitized");
 
 constexpr double kAmplitude = 1.57, kSpeed = 10.786, kDuration = 6;  // rad; rad/s, of the XL330 without load; s
 const std::vector<std::string> kNames{"sweep", "sines", "drop", "slow"};
