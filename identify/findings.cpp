@@ -53,7 +53,9 @@ bool swings_free(const BenchLog& log) {
 class Findings {
  public:
   Findings(const Identified& made, const std::vector<BenchLog>& logs, const std::vector<Key>& keys)
-      : made_(made), logs_(logs), keys_(keys) {}
+      : made_(made), logs_(logs), keys_(keys) {
+    free_ = std::ranges::any_of(logs, [](const BenchLog& log) { return !log.held_out && swings_free(log); });
+  }
 
   std::vector<std::string> take() {
     add_failures();
@@ -96,8 +98,7 @@ class Findings {
           if (!error || !(error->mae > kStrange * error->span)) continue;
           const char* const name = logged_kinds()[static_cast<std::size_t>(kind)].key;
           add("log {}: the {} of the bench is off by {:.2g} times the span of the log; look at unit, sign and zero of {} and "
-              "goal, "
-              "and at the column `on`",
+              "goal, and at the column `on`",
               logs_[l].name, name, error->mae / error->span, name);
         }
       }
@@ -116,16 +117,13 @@ class Findings {
     const SettingsNumbers numbers(logs_[0].scenario.actuator);
     if (const auto* supply = numbers.find("u_max"); supply != nullptr && !(supply->value[0] > 0)) {
       add("actuator.u_max is 0: the supply is taken to be the voltage of the data sheet; state the volts of the bench, to "
-          "which "
-          "stall_torque is proportional");
+          "which stall_torque is proportional");
     }
     if (logs_[0].efficiency && (fitted("actuator.stall_torque") || fitted("actuator.no_load_speed"))) {
       add("no log has a current: currents and their checks rest on the efficiency of the bench. Its stall current does not "
           "follow from these logs");
     }
-    const auto fits = [](const BenchLog& log) { return !log.held_out; };
-    const bool free = std::ranges::any_of(logs_, [&](const BenchLog& log) { return fits(log) && swings_free(log); });
-    if (!free && fitted("actuator.viscous_friction"))
+    if (!free_ && fitted("actuator.viscous_friction"))
       add("no fitted log swings without torque (`on` = 0): friction and back EMF act together in all of them");
   }
 
@@ -137,8 +135,7 @@ class Findings {
         if (std::abs(r) < kTrade) continue;
         const std::string& one = keys_[of[static_cast<std::size_t>(j)]].name;
         const std::string& other = keys_[of[static_cast<std::size_t>(i)]].name;
-        const bool free = std::ranges::any_of(logs_, [](const BenchLog& log) { return !log.held_out && swings_free(log); });
-        add("{} and {} trade (correlation {:.2f}); {}", one, other, r, remedy(one, other, free));
+        add("{} and {} trade (correlation {:.2f}); {}", one, other, r, remedy(one, other, free_));
       }
     }
   }
@@ -188,6 +185,7 @@ class Findings {
   const Identified& made_;
   const std::vector<BenchLog>& logs_;
   const std::vector<Key>& keys_;
+  bool free_ = false;  ///< true if a fitted log swings without torque
   std::vector<std::string> all_;
 };
 

@@ -32,10 +32,12 @@ void put(Node& map, const std::string& key, double value) {
   map.items.push_back(scalar_node(number_text(value)));
 }
 
-Identification::Quantity quantity_of(Logged kind) { return static_cast<Identification::Quantity>(kind); }
-
-/// The value with the digits that it has in texts.
-double in_short(double value) { return std::stod(fmt::format("{:.3g}", value)); }
+/// The quantities of both lists have the same order.
+Identification::Quantity quantity_of(Logged kind) {
+  static_assert(static_cast<std::size_t>(Identification::Quantity::duty) == static_cast<std::size_t>(Logged::duty) &&
+                static_cast<std::size_t>(Logged::duty) + 1 == kLoggedKinds);
+  return static_cast<Identification::Quantity>(kind);
+}
 
 /// Largest speed of a joint in a log, rad/s: that of its speeds, or of its angles over intervals of at least kSpan.
 double largest_speed(const MeasuredLog& log) {
@@ -52,6 +54,9 @@ double largest_speed(const MeasuredLog& log) {
   }
   return most;
 }
+
+/// The value with the digits that it has in texts.
+double in_short(double value) { return std::stod(fmt::format("{:.3g}", value)); }
 
 /// The same, but not less than the value: a run of the logs themselves stays within them.
 double not_less(double value) {
