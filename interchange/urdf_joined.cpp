@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <map>
-#include <ranges>
 
 #include "core/model/pattern.h"
 #include "core/settings/joint_patterns.h"
@@ -60,7 +59,8 @@ std::set<const urdf::Joint*> joined_joints(const UrdfText& urdf, const std::vect
   std::map<const urdf::Link*, JoinedGroup> groups;
   const std::vector<const urdf::Link*> links = links_outwards(urdf.model());
   const std::set<std::string> fixed_by_option = locked_joints(links, locked, problems);
-  for (const urdf::Link* const link : std::views::reverse(links)) {
+  for (auto next = links.rbegin(); next != links.rend(); ++next) {
+    const urdf::Link* const link = *next;
     JoinedGroup& own = groups[link];
     own.mass = own.mass || has_mass(*link);
     const urdf::Joint* const joint = link->parent_joint.get();
