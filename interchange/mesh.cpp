@@ -105,6 +105,14 @@ void add_sphere(Surface& to, double radius) {
   }
 }
 
+void add_hull(Surface& to, const Hull& hull) {
+  for (const Hull::Face& face : hull.faces) {
+    std::vector<Vec3> around;
+    for (const std::size_t corner : face.corners) around.push_back(hull.corners[corner]);
+    to.flat(around, face.normal);
+  }
+}
+
 /// The shortest tile edge for which `length` has at most 40 tiles.
 double tile_edge(double length) {
   for (const double power : {1e-4, 1e-3, 1e-2, 1e-1, 1e0, 1e1, 1e2, 1e3, 1e4}) {
@@ -186,6 +194,8 @@ void add(Mesh& mesh, const Shape& shape) {
       return add_cylinder(to, shape.size.x(), shape.size.y(), true);
     case Shape::Kind::sphere:
       return add_sphere(to, shape.size.x());
+    case Shape::Kind::hull:
+      return add_hull(to, *shape.hull);
   }
 }
 

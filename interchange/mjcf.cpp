@@ -50,6 +50,7 @@ class Mjcf {
                                     "m), each with a site.{}",
                                     left_out(s_), method(), text({kPointSize}), massless()));
     write_options(root);
+    write_meshes(root);
     Xml& world = add(root, "worldbody");
     write_ground(world);
     elements_ = contact_elements_by_body(robot_, s_.contact.on);
@@ -96,6 +97,30 @@ class Mjcf {
     set(drawn, "contype", "0");
     set(drawn, "conaffinity", "0");
     set(drawn, "group", "1");
+  }
+
+  static std::string mesh_name(const ModuleType& type, std::size_t body, std::size_t shape) {
+    return fmt::format("{}/{}/{}", type.name, type.bodies[body].name, shape);
+  }
+
+  /// Writes the points of hulls, from which MuJoCo makes meshes.
+  void write_meshes(Xml& root) {
+    Xml assets;
+    assets.name = "asset";
+    for (const ModuleType& type : robot_.types) {
+      for (std::size_t b = 0; b < type.bodies.size(); ++b) {
+        const std::vector<Shape>& shapes = type.bodies[b].shapes;
+        for (std::size_t i = 0; i < shapes.size(); ++i) {
+          if (shapes[i].kind != Shape::Kind::hull) continue;
+          Xml& mesh = add(assets, "mesh");
+          set(mesh, "name", mesh_name(type, b, i));
+          std::string points;
+          for (const Vec3& corner : shapes[i].hull->corners) points += (points.empty() ? "" : " ") + text(corner);
+          set(mesh, "vertex", points);
+        }
+      }
+    }
+    if (!assets.children.empty()) root.children.push_back(std::move(assets));
   }
 
   Xml& write_body(Xml& parent, std::size_t b) {
@@ -213,12 +238,19 @@ class Mjcf {
   }
 
   void draw(Xml& element, const Body& body) {
-    for (const Shape& shape : type(body).shapes) {
+    const std::vector<Shape>& shapes = type(body).shapes;
+    for (std::size_t i = 0; i < shapes.size(); ++i) {
+      const Shape& shape = shapes[i];
       Pose pose = shape.in_body;
       if (shape.kind == Shape::Kind::box) {
         set_pose(geom(element, "", "box", text(Vec3(shape.size / 2))), pose);
       } else if (shape.kind == Shape::Kind::sphere) {
         set_pose(geom(element, "", "sphere", text({shape.size.x()})), pose);
+      } else if (shape.kind == Shape::Kind::hull) {
+        Xml& e = add(element, "geom");
+        set(e, "type", "mesh");
+        set(e, "mesh", mesh_name(robot_.types[robot_.modules[body.module].type], body.type, i));
+        set_pose(e, pose);
       } else {  // MuJoCo has no half cylinder: a whole one is drawn, whose other half is inside the body
         pose.R = pose.R * y_from_z();
         set_pose(geom(element, "", "cylinder", text({shape.size.x(), shape.size.y() / 2})), pose);

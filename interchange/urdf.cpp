@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/model/solid.h"
 #include "core/simulation/start.h"
 #include "interchange/robot_xml.h"
 
@@ -135,9 +136,7 @@ class Urdf {
     if (body.mass > 0) write_inertia(add(e, "inertial"), body, body_in_frame);
     for (const Shape& shape : t.shapes) {
       Xml& visual = add(e, "visual");
-      const bool round = shape.kind == Shape::Kind::cylinder || shape.kind == Shape::Kind::half_cylinder;
-      const Pose in_body = round ? Pose{shape.in_body.R * y_from_z(), shape.in_body.p} : shape.in_body;
-      add_origin(visual, body_in_frame * in_body);
+      add_origin(visual, body_in_frame * drawn_pose(shape));
       draw(add(visual, "geometry"), shape);
     }
     for (const ContactElement& contact : contacts) {
@@ -158,9 +157,21 @@ class Urdf {
     }
   }
 
-  /// Writes a shape. URDF has no half cylinder: a whole one is written, whose other half is inside the body.
+  /// Pose in the body of the geometry that draw() writes.
+  static Pose drawn_pose(const Shape& shape) {
+    const Pose& pose = shape.in_body;
+    if (shape.kind == Shape::Kind::cylinder || shape.kind == Shape::Kind::half_cylinder) return {pose.R * y_from_z(), pose.p};
+    if (shape.kind != Shape::Kind::hull) return pose;
+    Shape upright = shape;
+    upright.in_body = {};
+    const auto [low, high] = bounds({&upright, 1});
+    return {pose.R, pose * Vec3((low + high) / 2)};
+  }
+
+  /// Writes a shape. URDF has no half cylinder: a whole one is written, whose other half is inside the body. A hull becomes the
+  /// box around it, because a mesh of URDF is a file of its own.
   static void draw(Xml& geometry, const Shape& shape) {
-    if (shape.kind == Shape::Kind::box) {
+    if (shape.kind == Shape::Kind::box || shape.kind == Shape::Kind::hull) {
       set(add(geometry, "box"), "size", text(shape.size));
     } else if (shape.kind == Shape::Kind::sphere) {
       set(add(geometry, "sphere"), "radius", text({shape.size.x()}));

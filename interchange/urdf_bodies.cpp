@@ -9,21 +9,13 @@
 #include "core/model/pattern.h"
 #include "core/settings/shell_word.h"
 #include "core/settings/wording.h"
-#include "interchange/robot_xml.h"
-#include "interchange/urdf.h"
 #include "interchange/urdf_joined.h"
 #include "interchange/urdf_mass.h"
+#include "interchange/urdf_shapes.h"
 
 namespace gaitlab::interchange {
 
 namespace {
-
-Vec3 vec(const urdf::Vector3& v) { return {v.x, v.y, v.z}; }
-
-Pose pose_of(const urdf::Pose& pose) {
-  const urdf::Rotation& r = pose.rotation;
-  return {Quat(r.w, r.x, r.y, r.z).toRotationMatrix(), vec(pose.position)};
-}
 
 const char* type_name(int type) {
   switch (type) {
@@ -60,8 +52,8 @@ std::vector<std::string> allowed_names(const std::vector<std::string>& names) {
 
 class BodyWalk {
  public:
-  BodyWalk(const UrdfText& urdf, const std::vector<std::string>& locked, Problems& problems)
-      : urdf_(urdf), locked_(locked), problems_(problems) {}
+  BodyWalk(const UrdfText& urdf, const UrdfOptions& options, Problems& problems)
+      : urdf_(urdf), locked_(options.locked), problems_(problems), shapes_(urdf, options.meshes) {}
 
   UrdfBodies read() {
     made_.notes = urdf_.repairs();
@@ -83,13 +75,6 @@ class BodyWalk {
     const urdf::Link* link;
     std::size_t body;
     Pose pose;
-  };
-
-  /// A part of a link's visual or collision.
-  struct Geometry {
-    Pose in_link;
-    const urdf::Geometry* of;
-    bool capsule;
   };
 
   /// The root, or the link that floats above a root without mass. The base is fixed if a root without mass has the name
@@ -227,10 +212,11 @@ class BodyWalk {
   }
 
   /// Shapes that the link's collision has, which touch the ground and other bodies; those of its visual if it has no
-  /// collision, if only the collision has meshes, or if the collision has points alone, as in our own export.
+  /// collision, if only the collision has meshes that cannot be read, or if the collision has points alone, as in our own
+  /// export.
   std::vector<Shape> link_shapes(const Placed& at) {
-    std::vector<Geometry> seen, touched;
-    const auto add = [&](std::vector<Geometry>& parts, const auto& array, bool collision) {
+    std::vector<UrdfPart> seen, touched;
+    const auto add = [&](std::vector<UrdfPart>& parts, const auto& array, bool collision) {
       for (const auto& one : array) {
         const bool capsule = urdf_.is_capsule(at.link->name, collision, parts.size());
         parts.push_back({pose_of(one->origin), one->geometry.get(), capsule});
@@ -238,24 +224,20 @@ class BodyWalk {
     };
     add(seen, at.link->visual_array, false);
     add(touched, at.link->collision_array, true);
-    const auto meshes = [](const std::vector<Geometry>& parts) {
-      return std::ranges::any_of(parts, [](const Geometry& part) { return part.of->type == urdf::Geometry::MESH; });
-    };
-    const bool drawn = !seen.empty() && !meshes(seen);
-    const bool points = std::ranges::all_of(touched, is_point);
-    const bool visual = !seen.empty() && (touched.empty() || (drawn && (points || meshes(touched))));
+    const auto readable = [&](const UrdfPart& part) { return shapes_.readable(part); };
+    const bool unread = !std::ranges::all_of(touched, readable);
+    const bool drawn = !seen.empty() && std::ranges::none_of(seen, &UrdfPart::is_mesh);
+    const bool points = std::ranges::all_of(touched, &UrdfPart::is_point);
+    const bool visual =
+        !seen.empty() && (touched.empty() || (drawn && points) || (unread && std::ranges::all_of(seen, readable)));
     if (visual && (touched.empty() || !points)) {
-      changed(urdf_.place("link", at.link->name), fmt::format("link {} has {} collision; its visual shapes are its contact",
-                                                              in_quotes(at.link->name), touched.empty() ? "no" : "meshes as"));
+      changed(urdf_.place("link", at.link->name),
+              fmt::format("link {} has {} collision; its visual shapes are its contact", in_quotes(at.link->name),
+                          touched.empty() ? "no" : "meshes that cannot be read as"));
     }
     std::vector<Shape> shapes = shapes_of(visual ? seen : touched, at);
     if (!visual && !seen.empty() && (!drawn || differ(shapes, shapes_of(seen, at)))) hidden_.push_back(at.link);
     return shapes;
-  }
-
-  /// A point, as our own export writes contact elements without radius.
-  static bool is_point(const Geometry& part) {
-    return part.of->type == urdf::Geometry::SPHERE && static_cast<const urdf::Sphere&>(*part.of).radius <= kPointRadius;
   }
 
   static bool differ(const std::vector<Shape>& a, const std::vector<Shape>& b) {
@@ -265,37 +247,11 @@ class BodyWalk {
     });
   }
 
-  /// Shapes in the frame of the link's body. Adds a problem for each mesh.
-  std::vector<Shape> shapes_of(const std::vector<Geometry>& parts, const Placed& at) {
+  /// Shapes in the frame of the link's body.
+  std::vector<Shape> shapes_of(const std::vector<UrdfPart>& parts, const Placed& at) {
     std::vector<Shape> shapes;
-    for (const Geometry& part : parts) add_shape(at, at.pose * part.in_link, part, shapes);
+    for (const UrdfPart& part : parts) shapes_.add(at.link->name, at.pose * part.in_link, part, shapes, made_.notes, problems_);
     return shapes;
-  }
-
-  void add_shape(const Placed& at, const Pose& pose, const Geometry& part, std::vector<Shape>& shapes) {
-    const urdf::Geometry& geometry = *part.of;
-    Shape shape{.in_body = pose};
-    if (geometry.type == urdf::Geometry::BOX) {
-      shape.size = vec(static_cast<const urdf::Box&>(geometry).dim);
-    } else if (geometry.type == urdf::Geometry::SPHERE) {
-      shape.kind = Shape::Kind::sphere;
-      shape.size.x() = static_cast<const urdf::Sphere&>(geometry).radius;
-    } else if (geometry.type == urdf::Geometry::CYLINDER) {
-      const auto& cylinder = static_cast<const urdf::Cylinder&>(geometry);
-      shape.kind = Shape::Kind::cylinder;
-      shape.in_body.R = pose.R * y_from_z().transpose();
-      shape.size = {cylinder.radius, cylinder.length, 0};
-      for (const double side : {-0.5, 0.5}) {
-        if (part.capsule)
-          shapes.push_back({Shape::Kind::sphere, {pose.R, pose * Vec3(0, 0, side * cylinder.length)}, {cylinder.radius, 0, 0}});
-      }
-    } else {
-      problems_.add(urdf_.place("link", at.link->name),
-                    fmt::format("link {} has the mesh {}; expected box, cylinder or sphere, at least as collision",
-                                in_quotes(at.link->name), in_quotes(static_cast<const urdf::Mesh&>(geometry).filename)));
-      return;
-    }
-    shapes.push_back(shape);
   }
 
   /// Sums the masses, reports bodies without mass, and makes names that a module file allows.
@@ -322,6 +278,7 @@ class BodyWalk {
     }
     if (made_.fixed_base) note_base();
     choose_motors(made_.bodies, urdf_, made_.hinges, made_.notes, problems_);
+    shapes_.add_note(made_.notes);
     if (!hidden_.empty()) {
       const std::string first = in_quotes(hidden_.front()->name);
       left_out(urdf_.place("link", hidden_.front()->name),
@@ -368,6 +325,7 @@ class BodyWalk {
   const UrdfText& urdf_;
   const std::vector<std::string>& locked_;
   Problems& problems_;
+  UrdfShapes shapes_;
   UrdfBodies made_;
   std::vector<std::vector<UrdfMass>> masses_;  ///< of the links of each body
   std::vector<Placed> open_;                   ///< links to read
@@ -380,8 +338,8 @@ class BodyWalk {
 
 }  // namespace
 
-UrdfBodies urdf_bodies(const UrdfText& urdf, const std::vector<std::string>& locked, Problems& problems) {
-  UrdfBodies made = BodyWalk(urdf, locked, problems).read();
+UrdfBodies urdf_bodies(const UrdfText& urdf, const UrdfOptions& options, Problems& problems) {
+  UrdfBodies made = BodyWalk(urdf, options, problems).read();
   for (const char* tag : {"transmission", "gazebo", "sensor", "safety_controller", "calibration", "contact"}) {
     if (const std::size_t number = urdf.count(tag); number > 0)
       made.notes.push_back({urdf.place(), fmt::format("{} of <{}>", counted(number, "element"), tag)});

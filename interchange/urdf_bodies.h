@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/model/module_type.h"
+#include "interchange/urdf_module.h"
 #include "interchange/urdf_motor.h"
 #include "interchange/urdf_note.h"
 #include "interchange/urdf_text.h"
@@ -19,7 +20,6 @@ struct UrdfBodies {
 };
 
 /// Adds a problem for everything that a module cannot contain; the bodies and hinges are then not valid.
-/// `locked` as in module_of_urdf.
-UrdfBodies urdf_bodies(const UrdfText& urdf, const std::vector<std::string>& locked, Problems& problems);
+UrdfBodies urdf_bodies(const UrdfText& urdf, const UrdfOptions& options, Problems& problems);
 
 }  // namespace gaitlab::interchange

@@ -26,7 +26,9 @@ std::string moments_text(const Vec3& moments) {
 }
 
 std::span<const double> sizes_of(const Shape& shape) {
-  const std::size_t number = shape.kind == Shape::Kind::box ? 3 : shape.kind == Shape::Kind::sphere ? 1 : 2;
+  const std::size_t number = shape.kind == Shape::Kind::box || shape.kind == Shape::Kind::hull ? 3
+                             : shape.kind == Shape::Kind::sphere                               ? 1
+                                                                                               : 2;
   return {shape.size.data(), number};
 }
 

@@ -43,7 +43,20 @@ std::string frame_text(const Pose& pose) {
   return "origin: " + list_text(pose.p) + turned;
 }
 
+/// Points of a hull in the frame of its body, four in a line, rounded to 1 um: vertices of meshes have the digits of a float.
+std::string hull_text(const Shape& shape) {
+  std::string text = "      - hull: [";
+  const std::vector<Vec3>& corners = shape.hull->corners;
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    Vec3 point = shape.in_body * corners[k];
+    for (double& at : point) at = std::round(at * 1e6) / 1e6 + 0.0;
+    text += (k == 0 ? "" : k % 4 == 0 ? ",\n               " : ", ") + list_text(point);
+  }
+  return text + "]\n";
+}
+
 std::string shape_text(const Shape& shape) {
+  if (shape.kind == Shape::Kind::hull) return hull_text(shape);
   const std::span<const double> size(shape.size.data(), 3);
   const std::string geometry = shape.kind == Shape::Kind::box      ? "box: " + list_text(size)
                                : shape.kind == Shape::Kind::sphere ? "sphere: " + number_text(shape.size.x())
@@ -176,10 +189,10 @@ Problem at_urdf(const Problem& problem, const ModuleText& made, const UrdfText& 
 
 }  // namespace
 
-UrdfModule module_of_urdf(const std::string& file, const std::string& name, const std::vector<std::string>& locked) {
+UrdfModule module_of_urdf(const std::string& file, const std::string& name, const UrdfOptions& options) {
   const UrdfText urdf(file);
   Problems problems;
-  const UrdfBodies parts = urdf_bodies(urdf, locked, problems);
+  const UrdfBodies parts = urdf_bodies(urdf, options, problems);
   raise_by_line(problems);
   ModuleText made = module_text(parts, name, file);
   // The reader of module files checks what URDF permits: impossible inertias, axes of length 0, sizes of 0.

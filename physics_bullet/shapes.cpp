@@ -1,11 +1,14 @@
 #include "physics_bullet/shapes.h"
 
 #include <BulletCollision/CollisionShapes/btBoxShape.h>
+#include <BulletCollision/CollisionShapes/btConvexHullShape.h>
 #include <BulletCollision/CollisionShapes/btCylinderShape.h>
 #include <BulletCollision/CollisionShapes/btSphereShape.h>
+#include <LinearMath/btConvexHullComputer.h>
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace gaitlab::bullet {
 
@@ -14,6 +17,21 @@ namespace {
 // Margin of a shape, m. Bullet rounds a shape by this radius around a core that is smaller by it, so that the rounded shape
 // does not exceed the outline. The default of Bullet, 40 mm, is meant for crates.
 double margin_of(double half_size) { return std::min(1e-3, 0.1 * half_size); }
+
+/// Hull whose faces are moved inwards by the margin.
+std::unique_ptr<btConvexInternalShape> make_hull(const Hull& hull) {
+  const auto nearest = std::ranges::min_element(hull.faces, {}, &Hull::Face::offset);
+  const double margin = margin_of(nearest->offset);
+  std::vector<btVector3> corners;
+  for (const Vec3& corner : hull.corners) corners.emplace_back(corner.x(), corner.y(), corner.z());
+  btConvexHullComputer core;
+  core.compute(&corners.front().x(), sizeof(btVector3), static_cast<int>(corners.size()), margin, 0);
+  auto made = std::make_unique<btConvexHullShape>();
+  for (int i = 0; i < core.vertices.size(); ++i) made->addPoint(core.vertices[i], false);
+  made->recalcLocalAabb();
+  made->setMargin(margin);
+  return made;
+}
 
 }  // namespace
 
@@ -61,6 +79,8 @@ std::unique_ptr<btConvexInternalShape> make_shape(const Shape& shape) {
     }
     case Shape::Kind::half_cylinder:
       return std::make_unique<HalfCylinderShape>(size.x(), size.y());
+    case Shape::Kind::hull:
+      return make_hull(*shape.hull);
     case Shape::Kind::sphere:
       break;
   }

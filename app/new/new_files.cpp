@@ -32,7 +32,7 @@ struct NewFileArguments {
   std::string name;
   std::optional<std::string> out;   ///< file to write; the default is NAME.yaml
   std::optional<std::string> from;  ///< URDF file; only for modules
-  std::vector<std::string> locked;  ///< names and patterns of its joints that are fixed at 0
+  interchange::UrdfOptions urdf;
   std::string module = "y1";        ///< name of a shipped module type, or a file; only for scenarios
   std::optional<int> count = {};    ///< number of modules in the row; only for scenarios
   std::string servo;                ///< name or file of a servo; only for benches
@@ -59,7 +59,7 @@ int new_module(const NewFileArguments& arguments) {
   bool driven = true;
   std::size_t changes = 0;
   if (arguments.from) {
-    interchange::UrdfModule made = interchange::module_of_urdf(*arguments.from, name, arguments.locked);
+    interchange::UrdfModule made = interchange::module_of_urdf(*arguments.from, name, arguments.urdf);
     for (const interchange::UrdfNote& note : made.notes) say(to_string(note.place), "note", note.kind() + (": " + note.text));
     changes = static_cast<std::size_t>(std::ranges::count(made.notes, true, &interchange::UrdfNote::changed));
     text = std::move(made.text);
@@ -310,12 +310,15 @@ void add_new_files(Commands& commands, CLI::App& command) {
         CLI::Option* const from = module.add_option("--from", arguments.from, "URDF file of the robot, instead of an example");
         from->check(not_empty);
         module
-            .add_option("--lock", arguments.locked,
+            .add_option("--lock", arguments.urdf.locked,
                         "name or pattern of joints of the URDF file that are fixed at 0; may be repeated")
             ->check(not_empty)
             ->expected(1)
             ->allow_extra_args(false)
             ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+            ->needs(from);
+        module.add_option("--meshes", arguments.urdf.meshes, "folder of the mesh files of the URDF file")
+            ->check(not_empty)
             ->needs(from);
         add_out(module, arguments);
       },

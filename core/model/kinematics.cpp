@@ -82,6 +82,7 @@ double lowest_point(const Robot& robot, const Kinematics& k, std::span<const Con
       const Pose world = Pose{k.R[body.link], k.p[body.link]} * body.in_link * shape.in_body;
       const Vec3 down = world.R.transpose() * -Vec3::UnitZ();
       double reach = shape.size.x();  // sphere: radius
+      if (shape.kind == Shape::Kind::hull) reach = down.dot(shape.hull->farthest(down));
       if (shape.kind == Shape::Kind::box) reach = 0.5 * down.cwiseAbs().dot(shape.size);
       if (shape.kind == Shape::Kind::cylinder || shape.kind == Shape::Kind::half_cylinder) {
         // A half cylinder that bulges downwards reaches as far as a whole cylinder. Otherwise only the edge of its flat side

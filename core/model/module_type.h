@@ -4,12 +4,15 @@
 #include <cstddef>
 #include <limits>
 #include <map>
+#include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "core/model/body_pairs.h"
 #include "core/model/frames.h"
+#include "core/model/hull.h"
 #include "core/model/passive.h"
 #include "core/model/play.h"
 #include "core/model/supply.h"
@@ -17,19 +20,24 @@
 
 namespace gaitlab {
 
-/// Piece of the outline of a body, for drawing, m, body frame: a box (full sizes), a cylinder, a half cylinder, or a sphere.
-/// The axis of a cylinder is y of its frame; a half cylinder bulges towards +x.
+/// Piece of the outline of a body, for drawing, m, body frame: a box (full sizes), a cylinder, a half cylinder, a sphere, or
+/// the convex hull of points. The axis of a cylinder is y of its frame; a half cylinder bulges towards +x. The origin of a hull
+/// is the mean of its corners.
 struct Shape {
-  enum class Kind { box, cylinder, half_cylinder, sphere } kind = Kind::box;
+  enum class Kind { box, cylinder, half_cylinder, sphere, hull } kind = Kind::box;
   Pose in_body = {};
-  Vec3 size = Vec3::Zero();  ///< box: x y z; cylinders: radius, length, 0; sphere: radius, 0, 0
+  Vec3 size = Vec3::Zero();  ///< box: x y z; cylinders: radius, length, 0; sphere: radius, 0, 0; hull: edges of its box
+  std::shared_ptr<const Hull> hull = {};  ///< set for a hull only, in the axes of the shape
 };
+
+/// Shape of the convex hull of at most 64 points, in their frame at `in_body`; nothing if the points are in a plane.
+std::optional<Shape> hull_shape(const Pose& in_body, std::span<const Vec3> points);
 
 template <>
 struct EnumNames<Shape::Kind> {
   using enum Shape::Kind;
   static constexpr EnumName<Shape::Kind> kTable[] = {
-      {box, "box"}, {cylinder, "cylinder"}, {half_cylinder, "half_cylinder"}, {sphere, "sphere"}};
+      {box, "box"}, {cylinder, "cylinder"}, {half_cylinder, "half_cylinder"}, {sphere, "sphere"}, {hull, "hull"}};
 };
 
 struct BodyType {

@@ -13,8 +13,10 @@ std::vector<std::vector<Shape>> shapes_of_modules(const Robot& robot) {
   std::vector<std::vector<Shape>> all(robot.modules.size());
   for (const Body& body : robot.bodies) {
     const Pose pose = Pose{zero.R[body.link], zero.p[body.link]} * body.in_link;
-    for (const Shape& shape : robot.types[robot.modules[body.module].type].bodies[body.type].shapes)
-      all[body.module].push_back({shape.kind, pose * shape.in_body, shape.size});
+    for (const Shape& shape : robot.types[robot.modules[body.module].type].bodies[body.type].shapes) {
+      all[body.module].push_back(shape);
+      all[body.module].back().in_body = pose * shape.in_body;
+    }
   }
   return all;
 }

@@ -32,6 +32,7 @@ std::vector<Vec3> points_of(const Shape& shape) {
     const std::array<Vec3, 8> corners = box_corners(shape.size);
     return {corners.begin(), corners.end()};
   }
+  if (shape.kind == Shape::Kind::hull) return shape.hull->corners;
   const bool half = shape.kind == Shape::Kind::half_cylinder;
   // The arc of a half cylinder goes from +z over +x to -z, and ends at the straight edges.
   for (const double side : {-0.5, 0.5}) add_arc(shape.size.x(), side * shape.size.y(), half ? 6 : 0, half ? 5 : 8, points);

@@ -26,6 +26,7 @@ std::pair<double, double> on_circle(double r, double x, double z) {
 /// Farthest point of a shape in the axes of the shape.
 Vec3 farthest_in_shape(const Shape& shape, const Vec3& d) {
   const Vec3& size = shape.size;
+  if (shape.kind == Shape::Kind::hull) return shape.hull->farthest(d);
   if (shape.kind == Shape::Kind::sphere) return size.x() * d.normalized();
   if (shape.kind == Shape::Kind::box) {
     return {std::copysign(size.x() / 2, d.x()), std::copysign(size.y() / 2, d.y()), std::copysign(size.z() / 2, d.z())};
@@ -102,9 +103,9 @@ bool within(const Shape& inner, const Shape& outer) {
     return true;
   }
   if (inner.kind == Shape::Kind::sphere) return distance(outer, inner.in_body.p) <= rounding - inner.size.x();
-  if (inner.kind != Shape::Kind::box) return false;
-  const std::array<Vec3, 8> corners = box_corners(inner.size);
-  return std::ranges::none_of(corners, [&](const Vec3& one) { return distance(outer, inner.in_body * one) > rounding; });
+  const auto inside = [&](const Vec3& corner) { return distance(outer, inner.in_body * corner) <= rounding; };
+  if (inner.kind == Shape::Kind::hull) return std::ranges::all_of(inner.hull->corners, inside);
+  return inner.kind == Shape::Kind::box && std::ranges::all_of(box_corners(inner.size), inside);
 }
 
 /// Part of a line in a convex shape, from `lo` to `hi` along the line; empty if lo >= hi.
@@ -144,6 +145,10 @@ Chord chord(const Shape& shape, const Vec3& o, const Vec3& u) {
     case Shape::Kind::sphere:
       cut.cut_round(u.squaredNorm(), o.dot(u), o.squaredNorm(), size.x());
       return cut;
+    case Shape::Kind::hull:
+      for (const Hull::Face& face : shape.hull->faces)
+        cut.cut_slab(face.normal.dot(o), face.normal.dot(u), -kInfinite, face.offset);
+      return cut;
     case Shape::Kind::half_cylinder:
       cut.cut_slab(o.x(), u.x(), 0, size.x());
       break;
@@ -180,7 +185,8 @@ class Bars {
  public:
   Bars(const std::vector<Shape>& shapes, const Pose& frame) {
     for (const Shape& shape : shapes) {
-      shapes_.push_back({shape.kind, frame.inverse() * shape.in_body, shape.size});
+      shapes_.push_back(shape);
+      shapes_.back().in_body = frame.inverse() * shape.in_body;
       const auto [low, high] = bounds({&shapes_.back(), 1});
       low_.push_back(low);
       high_.push_back(high);
@@ -246,7 +252,45 @@ Solid merged(const std::vector<Shape>& shapes) {
   return {there.volume, frame * there.centre, frame.R * there.second * frame.R.transpose()};
 }
 
+/// Solid of a hull about the origin of its axes, as the sum of tetrahedra between the origin and the triangles of its faces. A
+/// tetrahedron with corners 0, a, b, c has the volume V = a . (b x c) / 6 and int p p^T dV = V/20 (sum of p p^T over a, b, c
+/// and s = a + b + c).
+Solid solid(const Hull& hull) {
+  Solid sum;
+  for (const Hull::Face& face : hull.faces) {
+    for (std::size_t k = 2; k < face.corners.size(); ++k) {
+      const Vec3& a = hull.corners[face.corners[0]];
+      const Vec3& b = hull.corners[face.corners[k - 1]];
+      const Vec3& c = hull.corners[face.corners[k]];
+      const double volume = a.dot(b.cross(c)) / 6;
+      const Vec3 s = a + b + c;
+      sum.volume += volume;
+      sum.centre += volume / 4 * s;
+      sum.second += volume / 20 * (a * a.transpose() + b * b.transpose() + c * c.transpose() + s * s.transpose());
+    }
+  }
+  sum.centre /= sum.volume;
+  sum.second -= sum.volume * sum.centre * sum.centre.transpose();
+  return sum;
+}
+
 }  // namespace
+
+std::optional<Shape> hull_shape(const Pose& in_body, std::span<const Vec3> points) {
+  Hull hull = convex_hull(points);
+  if (hull.faces.empty()) return {};
+  Vec3 mean = Vec3::Zero();
+  for (const Vec3& corner : hull.corners) mean += corner / static_cast<double>(hull.corners.size());
+  Vec3 low = Vec3::Constant(kInfinite);
+  Vec3 high = -low;
+  for (Vec3& corner : hull.corners) {
+    corner -= mean;
+    low = low.cwiseMin(corner);
+    high = high.cwiseMax(corner);
+  }
+  for (Hull::Face& face : hull.faces) face.offset -= face.normal.dot(mean);
+  return Shape{Shape::Kind::hull, {in_body.R, in_body * mean}, high - low, std::make_shared<const Hull>(std::move(hull))};
+}
 
 std::array<Vec3, 8> box_corners(const Vec3& edges) {
   std::array<Vec3, 8> corners;
@@ -266,6 +310,11 @@ void Solid::add(const Solid& other) {
 }
 
 Solid solid(const Shape& shape) {
+  if (shape.kind == Shape::Kind::hull) {
+    const Solid own = solid(*shape.hull);
+    const Mat3& R = shape.in_body.R;
+    return {own.volume, shape.in_body * own.centre, R * own.second * R.transpose()};
+  }
   const double r = shape.size.x();
   const double length = shape.size.y();
   Solid own;
@@ -286,6 +335,8 @@ Solid solid(const Shape& shape) {
       own.volume = std::numbers::pi / 2 * r * r * length;
       own.centre.x() = 4 * r / (3 * std::numbers::pi);
       mean = {r * r / 4 - own.centre.x() * own.centre.x(), length * length / 12, r * r / 4};
+      break;
+    case Shape::Kind::hull:
       break;
   }
   const Mat3& R = shape.in_body.R;
@@ -343,6 +394,8 @@ double distance(const Shape& shape, const Vec3& point) {
   switch (shape.kind) {
     case Shape::Kind::sphere:
       return p.norm() - size.x();
+    case Shape::Kind::hull:
+      return shape.hull->distance(p);
     case Shape::Kind::box: {
       const Vec3 out = p.cwiseAbs() - size / 2;
       return out.maxCoeff() <= 0 ? out.maxCoeff() : out.cwiseMax(0.0).norm();

@@ -16,6 +16,24 @@ Mat3 inertia_matrix(const std::array<double, 6>& inertia) {
   return (Mat3() << xx, xy, xz, xy, yy, yz, xz, yz, zz).finished();
 }
 
+/// Makes the shape a hull of its points. Returns false, with a problem, if they have none.
+bool set_hull(const Node& node, ShapeKeys& shape, Problems& problems) {
+  const auto refuse = [&](const std::string& what) {
+    problems.add(node.place, what + "; expected 4 to 64 points [x, y, z] that are not all in one plane");
+    return false;
+  };
+  std::vector<Vec3> points;
+  for (const std::vector<double>& row : shape.corners) {
+    if (row.size() != 3) return refuse(fmt::format("a point of the hull has {}", counted(row.size(), "number")));
+    points.emplace_back(row[0], row[1], row[2]);
+  }
+  if (points.size() > kMostHullPoints) return refuse(fmt::format("the hull has {} points", points.size()));
+  std::optional<Shape> made = hull_shape(shape.in_body, points);
+  if (!made) return refuse("all points of the hull are in one plane");
+  static_cast<Shape&>(shape) = std::move(*made);
+  return true;
+}
+
 /// Adds a shape to the body.
 void add_shape(const Node& node, ShapeKeys shape, BodyType& body, Problems& problems) {
   std::size_t kinds = 0;
@@ -25,11 +43,12 @@ void add_shape(const Node& node, ShapeKeys shape, BodyType& body, Problems& prob
     shape.kind = kind;
   }
   if (kinds != 1 && node.kind == Node::Kind::map) {
-    problems.add(node.place, fmt::format("the shape has {} of box, cylinder, half_cylinder and sphere; expected exactly one of "
-                                         "them",
+    problems.add(node.place, fmt::format("the shape has {} of box, cylinder, half_cylinder, sphere and hull; expected exactly "
+                                         "one of them",
                                          kinds));
   }
   shape.in_body = {rpy(shape.turn), shape.origin};
+  if (shape.kind == Shape::Kind::hull && !set_hull(*node.find(name_of(shape.kind)), shape, problems)) return;
   body.shapes.emplace_back(shape);
 }
 

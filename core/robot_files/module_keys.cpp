@@ -41,6 +41,7 @@ void ShapeKeys::fields(Fields& f) {
   one_of(f).vector(name_of(Shape::Kind::half_cylinder), span_of(size).first(2),
                    positive("m", "Radius and length, along y; the half on the side of +x."));
   one_of(f).number(name_of(Shape::Kind::sphere), size.x(), positive("m", "Radius."));
+  one_of(f).rows(name_of(Shape::Kind::hull), corners, any("m", "4 to 64 points [x, y, z], whose convex hull is the shape."));
 }
 
 void BodyKeys::fields(Fields& f) {
@@ -52,7 +53,7 @@ void BodyKeys::fields(Fields& f) {
                          "xx, yy, zz, xy, xz, yz about the COM, body axes; elements of the tensor (xy: -sum of m x y). Without "
                          "this key: inertia of the shapes at uniform density."));
   optional(f).list("shape", outline,
-                   "Outline of the body. Each shape has exactly one of box, cylinder, half_cylinder and sphere.");
+                   "Outline of the body. Each shape has exactly one of box, cylinder, half_cylinder, sphere and hull.");
 }
 
 void SpringKeys::fields(Fields& f) {

@@ -15,6 +15,7 @@ namespace gaitlab {
 struct ShapeKeys : Shape {
   std::string source;
   Vec3 origin = Vec3::Zero(), turn = Vec3::Zero();
+  std::vector<std::vector<double>> corners;  ///< points of a hull
   void fields(Fields& f);
 };
 

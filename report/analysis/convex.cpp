@@ -109,6 +109,23 @@ bool overlap_everywhere(Overlap& overlap, const Convex& a, const Convex& b) {
   return true;
 }
 
+/// Adds a unit vector, unless it is parallel to one of those that there are.
+void add_direction(std::vector<Vec3>& all, const Vec3& one) {
+  if (std::ranges::none_of(all, [&](const Vec3& other) { return other.cross(one).norm() < kNoAxis; })) all.push_back(one);
+}
+
+Convex polyhedron(const Hull& hull) {
+  Convex made{hull.corners, {}, {}};
+  for (const Hull::Face& face : hull.faces) {
+    add_direction(made.normals, face.normal);
+    for (std::size_t k = 0; k < face.corners.size(); ++k) {
+      const Vec3& next = hull.corners[face.corners[(k + 1) % face.corners.size()]];
+      add_direction(made.directions, (next - hull.corners[face.corners[k]]).normalized());
+    }
+  }
+  return made;
+}
+
 }  // namespace
 
 Convex convex(const Shape& shape) {
@@ -117,6 +134,8 @@ Convex convex(const Shape& shape) {
       return moved(block(shape.size), shape.in_body);
     case Shape::Kind::sphere:
       return {{shape.in_body.p}, {}, {}, shape.size.x()};
+    case Shape::Kind::hull:
+      return moved(polyhedron(*shape.hull), shape.in_body);
     default:
       return moved(prism(shape.size.x(), shape.size.y(), shape.kind == Shape::Kind::half_cylinder), shape.in_body);
   }

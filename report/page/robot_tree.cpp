@@ -36,6 +36,18 @@ Json json_of(const Pose& pose) {
   return {pose.p.x(), pose.p.y(), pose.p.z(), q.w(), q.x(), q.y(), q.z()};
 }
 
+namespace {
+
+Json json_of_shape(const Shape& shape) {
+  Json made{{"kind", name_of(shape.kind)}, {"pose", json_of(shape.in_body)}, {"size", json_of(shape.size)}};
+  if (shape.kind != Shape::Kind::hull) return made;
+  for (const Vec3& corner : shape.hull->corners) made["corners"].push_back(json_of(corner));
+  for (const Hull::Face& face : shape.hull->faces) made["faces"].push_back(face.corners);
+  return made;
+}
+
+}  // namespace
+
 RobotTree::RobotTree(const Robot& robot) : robot_(robot), order_(robot.bodies.size()), place_(robot.bodies.size()) {
   // Parent links come first. Within a link, a module comes after the module that it is docked to.
   std::vector<std::size_t> away;
@@ -100,8 +112,7 @@ Json RobotTree::geometry() const {
   for (const ModuleType& type : robot_.types) {
     for (std::size_t b = 0; b < type.bodies.size(); ++b) {
       Json shapes = Json::array();
-      for (const Shape& shape : type.bodies[b].shapes)
-        shapes.push_back({{"kind", name_of(shape.kind)}, {"pose", json_of(shape.in_body)}, {"size", json_of(shape.size)}});
+      for (const Shape& shape : type.bodies[b].shapes) shapes.push_back(json_of_shape(shape));
       all[key_of(type, b)] = shapes;
     }
   }

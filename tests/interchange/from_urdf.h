@@ -44,7 +44,7 @@ class FromUrdf : public ::testing::Test {
  protected:
   ModuleType read_urdf(const std::string& content) {
     made_ =
-        interchange::module_of_urdf(folder_.write("r.urdf", "<robot name='r'>\n" + content + "</robot>\n"), "made", locked_);
+        interchange::module_of_urdf(folder_.write("r.urdf", "<robot name='r'>\n" + content + "</robot>\n"), "made", options_);
     return module_in(made_);
   }
   std::string refused(const std::string& content) {
@@ -60,7 +60,7 @@ class FromUrdf : public ::testing::Test {
       texts.push_back(fmt::format("{} {}: {}", note.place.line, note.kind(), note.text));
     return texts;
   }
-  std::vector<std::string> locked_;  ///< names and patterns of joints to be fixed
+  interchange::UrdfOptions options_;
   interchange::UrdfModule made_;
   Folder folder_;
 };

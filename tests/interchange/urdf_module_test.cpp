@@ -124,7 +124,8 @@ TEST_F(FromUrdf, RefusesInOneList) {
                     urdf_joint("ad", "prismatic", "a", "d", kLimit) + urdf_joint("ac", "floating", "a", "c", "") +
                     urdf_joint("ab", "planar", "a", "b", "") +
                     urdf_joint("ae", "revolute", "a", "e", "<limit lower='-1' upper='1' effort='-1' velocity='-2'/>")),
-            "r:2:1: error: link 'a' has the mesh 'a.stl'; expected box, cylinder or sphere, at least as collision\n"
+            "r:2:1: error: link 'a' has the mesh 'a.stl', which is neither beside the URDF file nor in the 4 folders above it; "
+            "expected its folder by --meshes, or box, cylinder or sphere as collision\n"
             "r:7:1: error: joint 'ad' is prismatic; a module has hinges; they are fixed at 0 by --lock ad --lock ac --lock ab\n"
             "r:8:1: error: joint 'ac' is floating; a module has hinges\n"
             "r:9:1: error: joint 'ab' is planar; a module has hinges\n"
@@ -204,12 +205,12 @@ TEST_F(FromUrdf, ARootOnTheGround) {
   for (const std::string type : {"prismatic", "floating", "planar"}) {
     for (const std::string root : {"world", "rail"}) {
       const std::string robot = urdf_link(root, "") + links + urdf_joint("p", type, root, "a", kLimit) + joint;
-      locked_ = {};
+      options_.locked = {};
       if (type != "floating") {
         EXPECT_TRUE(refused(robot).starts_with("r:5:1: error: joint 'p' is " + type)) << refused(robot);
         EXPECT_FALSE(contains(refused(robot), "no mass")) << "--lock is enough";
       }
-      locked_ = {"p"};
+      options_.locked = {"p"};
       EXPECT_TRUE(read_urdf(robot).all.empty()) << type;
       ASSERT_EQ(notes().size(), 3U) << type;
       EXPECT_TRUE(contains(notes()[1], "is the ground: ")) << notes()[1];

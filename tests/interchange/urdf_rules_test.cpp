@@ -1,7 +1,9 @@
 // The rules by which the habits and faults of public URDF files become a module, each with its note.
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 
+#include "core/model/solid.h"
 #include "interchange/urdf.h"
 #include "tests/interchange/from_urdf.h"
 #include "tests/program/fixture.h"
@@ -137,7 +139,7 @@ TEST_F(FromUrdf, LockedJointsAreFixed) {
                  "<mimic joint='wrist'/><limit lower='-1' upper='1' effort='1' velocity='1'/>");
   EXPECT_EQ(refused(robot),
             "r:7:1: error: joint 'finger_1' is prismatic; a module has hinges; it is fixed at 0 by --lock finger_1");
-  locked_ = {"finger_1"};
+  options_.locked = {"finger_1"};
   const ModuleType one = read_urdf(robot);
   EXPECT_EQ(one.hinges.size(), 2U);
   EXPECT_EQ(body_of(one, "hand").mass, 4);
@@ -147,9 +149,9 @@ TEST_F(FromUrdf, LockedJointsAreFixed) {
                             "7 Changed: joint 'finger_1' is fixed at 0, as --lock asks",
                             "8 Changed: joint 'finger_2' mimics 'wrist'; it moves independently, or is fixed by --lock "
                             "finger_1 --lock finger_2"}));
-  locked_ = {"finger*"};
+  options_.locked = {"finger*"};
   EXPECT_EQ(read_urdf(robot).hinges.size(), 1U);
-  locked_ = {"wrists"};
+  options_.locked = {"wrists"};
   EXPECT_TRUE(contains(refused(robot), "--lock: error: no joint 'wrists'; did you mean 'wrist'?")) << refused(robot);
 }
 
@@ -160,9 +162,9 @@ TEST_F(FromUrdf, LockedNamesAreVerbatim) {
                             urdf_joint("g*", "prismatic", "a", "b", slide) + urdf_joint("g$(x)", "revolute", "a", "c", kLimit) +
                             urdf_joint("it&apos;s", "prismatic", "a", "d", slide);
   EXPECT_TRUE(contains(refused(robot), "they are fixed at 0 by --lock 'g*' --lock 'it'\\''s'\n")) << refused(robot);
-  locked_ = {"g*"};
+  options_.locked = {"g*"};
   EXPECT_TRUE(contains(refused(robot), "it is fixed at 0 by --lock 'g*' --lock 'it'\\''s'")) << refused(robot);
-  locked_ = {"g*", "it's"};
+  options_.locked = {"g*", "it's"};
   EXPECT_EQ(read_urdf(robot).hinges.size(), 1U);
 }
 
@@ -355,6 +357,65 @@ TEST_F(FromUrdf, PointsOfOurExportAreNotShapes) {
   const ModuleType back = module_in(made_ = module_of_urdf(folder_.write("m.urdf", to_urdf(one)), "back"));
   ASSERT_EQ(back.bodies[0].shapes.size(), 1U);
   EXPECT_EQ(back.bodies[0].shapes[0].size, Vec3(0.1, 0.2, 0.3));
+}
+
+/// Text of an OBJ file with the corners of a box between two corners.
+std::string obj_box(const Vec3& low, const Vec3& high) {
+  std::string text;
+  for (const Vec3& at : box_corners(high - low)) {
+    const Vec3 corner = at + (low + high) / 2;
+    text += fmt::format("v {} {} {}\n", corner.x(), corner.y(), corner.z());
+  }
+  return text;
+}
+
+/// A mesh is the hull of its points, at the place and scale of the URDF file. Its file is found beside the URDF file, above it
+/// by the name of its package, or in the folder of --meshes, which comes first.
+TEST_F(FromUrdf, MeshesAreHulls) {
+  folder_.write("box.obj", obj_box({-0.1, -0.2, -0.3}, {0.3, 0.2, 0.1}));
+  std::filesystem::create_directories(folder_ / "dog/meshes");
+  folder_.write("dog/meshes/box.obj", obj_box({0, 0, 0}, {2, 2, 2}));
+  const auto mesh = [](const std::string& attributes) {
+    return "<collision><origin xyz='0 0 1'/><geometry><mesh " + attributes + "/></geometry></collision>";
+  };
+  const auto bounds_of = [&](const std::string& attributes) {
+    const ModuleType type = read_urdf(urdf_link("a", kInertial + mesh(attributes)) + urdf_link("b") +
+                                      urdf_joint("ab", "revolute", "a", "b", kLimit));
+    EXPECT_EQ(type.bodies[0].shapes.front().kind, Shape::Kind::hull);
+    return bounds(type.bodies[0].shapes);
+  };
+  const auto [low, high] = bounds_of("filename='box.obj' scale='1 0.5 -1'");
+  EXPECT_LT((low - Vec3(-0.1, -0.1, 0.9)).norm(), 1e-12);
+  EXPECT_LT((high - Vec3(0.3, 0.1, 1.3)).norm(), 1e-12);
+  EXPECT_EQ(notes().back(),
+            "2 Changed: 1 mesh is the convex hull of at most 32 of its points; the widest gap is 0 % of its "
+            "longest edge, in link 'a'");
+  for (const char* name : {"package://dog/meshes/box.obj", "dog/meshes/box.obj", "model://dog/meshes/box.obj"})
+    EXPECT_EQ(bounds_of("filename='" + std::string(name) + "'").second, Vec3(2, 2, 3)) << name;
+  options_.meshes = folder_ / "dog/meshes";
+  EXPECT_EQ(bounds_of("filename='package://cat/box.obj'").second, Vec3(2, 2, 3));
+  EXPECT_EQ(bounds_of("filename='box.obj'").second, Vec3(2, 2, 3)) << "--meshes comes first";
+}
+
+/// Meshes that cannot be read are problems at their link, unless the visual has other shapes; a flat mesh has no shape.
+TEST_F(FromUrdf, MeshesThatCannotBeRead) {
+  folder_.write("flat.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\n");
+  folder_.write("short.stl", std::string(84, '\x01'));
+  const auto robot = [](const std::string& parts) {
+    return urdf_link("a", kInertial + parts) + urdf_link("b") + urdf_joint("ab", "revolute", "a", "b", kLimit);
+  };
+  const auto mesh = [](const std::string& file) {
+    return "<collision><geometry><mesh filename='" + file + "'/></geometry></collision>";
+  };
+  const std::string box = "<visual><geometry><box size='1 1 1'/></geometry></visual>";
+  EXPECT_TRUE(contains(refused(robot(mesh("short.stl"))), "short.stl: 16843009 triangles are announced")) << "at the link";
+  EXPECT_EQ(read_urdf(robot(mesh("none.stl") + box)).bodies[0].shapes.front().kind, Shape::Kind::box);
+  EXPECT_TRUE(contains(notes().front(),
+                       "link 'a' has meshes that cannot be read as collision; its visual shapes are its "
+                       "contact"))
+      << notes().front();
+  EXPECT_TRUE(read_urdf(robot(mesh("flat.obj"))).bodies[0].shapes.empty());
+  EXPECT_TRUE(contains(notes().front(), "all points of which are in one plane; it has no shape")) << notes().front();
 }
 
 }  // namespace

@@ -3,9 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <set>
+#include <utility>
 #include <vector>
 
 #include "tests/labels.h"
@@ -140,6 +143,9 @@ bool in_shape(const Shape& shape, const Vec3& point) {
   const Vec3& size = shape.size;
   if (shape.kind == Shape::Kind::box) return (p.cwiseAbs() - size / 2).maxCoeff() <= 0;
   if (shape.kind == Shape::Kind::sphere) return p.norm() <= size.x();
+  if (shape.kind == Shape::Kind::hull) {
+    return std::ranges::all_of(shape.hull->faces, [&](const Hull::Face& face) { return face.normal.dot(p) <= face.offset; });
+  }
   return std::abs(p.y()) <= size.y() / 2 && std::hypot(p.x(), p.z()) <= size.x() &&
          (shape.kind == Shape::Kind::cylinder || p.x() >= 0);
 }
@@ -151,8 +157,75 @@ Shape random_shape(std::mt19937& random) {
     const double x = of(random), y = of(random), z = of(random);
     return Vec3(x, y, z);
   };
-  const auto kind = static_cast<Shape::Kind>(random() % 4);
-  return {kind, {rpy(3 * vector(any)), vector(any)}, vector(size)};
+  const auto kind = static_cast<Shape::Kind>(random() % 5);
+  const Shape made{kind, {rpy(3 * vector(any)), vector(any)}, vector(size)};
+  if (kind != Shape::Kind::hull) return made;
+  std::vector<Vec3> points;
+  for (int k = 0; k < 16; ++k) points.push_back(vector(any));
+  return hull_shape(made.in_body, points).value();
+}
+
+/// The faces of a hull are its boundary: no point is outside a face, and each edge of a face is an edge of one other face, in
+/// the opposite direction. Then V - E + F = 2 (Euler).
+TEST(Hull, RandomPoints) {
+  std::mt19937 random(1);
+  std::normal_distribution<double> any;
+  for (std::size_t n = 4; n <= kMostHullPoints; n += 6) {
+    std::vector<Vec3> points;
+    for (std::size_t k = 0; k < n; ++k) {
+      const double x = any(random), y = any(random), z = any(random);
+      points.emplace_back(x, y, z);
+      if (n % 4 == 2) points.back().normalize();  // on a sphere: every point is a corner
+    }
+    const Hull hull = convex_hull(points);
+    EXPECT_EQ(hull.corners.size() == n, n < 5 || n % 4 == 2) << n;
+    std::set<std::pair<std::size_t, std::size_t>> edges;
+    for (const Hull::Face& face : hull.faces) {
+      EXPECT_NEAR(face.normal.norm(), 1, kByRounding);
+      for (const Vec3& point : points) EXPECT_LE(face.normal.dot(point), face.offset + 1e-8);
+      for (std::size_t k = 0; k < face.corners.size(); ++k) {
+        EXPECT_NEAR(face.normal.dot(hull.corners[face.corners[k]]), face.offset, 1e-8);
+        EXPECT_TRUE(edges.emplace(face.corners[k], face.corners[(k + 1) % face.corners.size()]).second);
+      }
+    }
+    for (const auto& [from, to] : edges) EXPECT_TRUE(edges.contains({to, from}));
+    EXPECT_EQ(hull.corners.size() + hull.faces.size(), edges.size() / 2 + 2);
+  }
+}
+
+/// The hull of a box has the box's faces and moments, also if points are inside, on its faces and edges, or given twice.
+TEST(Hull, OfABox) {
+  const Vec3 size(1, 2, 3);
+  std::vector<Vec3> points{{0, 0, 0}, {0.5, 0, 0}, {0.5, 1, 0}, {0.5, 1, 1.5}, {0.1, 1, -1.5}};
+  for (const Vec3& corner : box_corners(size)) points.push_back(corner);
+  const Pose pose{rpy({0.3, 0.4, 0.5}), {4, 5, 6}};
+  const Shape shape = hull_shape(pose, points).value();
+  EXPECT_EQ(shape.hull->corners.size(), 8U);
+  EXPECT_EQ(shape.hull->faces.size(), 6U);
+  const Solid box = solid({Shape::Kind::box, pose, size});
+  const Solid found = solid(shape);
+  EXPECT_NEAR(found.volume, box.volume, kByRounding);
+  EXPECT_LT((found.centre - box.centre).norm(), kByRounding);
+  EXPECT_LT((found.second - box.second).norm(), kByRounding);
+  EXPECT_LT((shape.size - size).norm(), kByRounding);
+}
+
+/// A tetrahedron with three edges of length a, b, c at right angles has V = a b c / 6, its centre at (a, b, c) / 4, and
+/// int x^2 dV = V a^2 / 10, int x y dV = V a b / 20 about the corner.
+TEST(Hull, OfATetrahedron) {
+  const Vec3 e(1, 2, 3);
+  const Solid found = solid(hull_shape({}, std::vector<Vec3>{{0, 0, 0}, {e.x(), 0, 0}, {0, e.y(), 0}, {0, 0, e.z()}}).value());
+  EXPECT_NEAR(found.volume, 1, kByRounding);
+  EXPECT_LT((found.centre - e / 4).norm(), kByRounding);
+  const Mat3 about_corner = Mat3(e.cwiseAbs2().asDiagonal()) / 20 + e * e.transpose() / 20;
+  EXPECT_LT((found.second - (about_corner - e * e.transpose() / 16)).norm(), kByRounding);
+}
+
+TEST(Hull, NeedsAVolume) {
+  EXPECT_FALSE(hull_shape({}, {}));
+  EXPECT_FALSE(hull_shape({}, std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
+  EXPECT_FALSE(hull_shape({}, std::vector<Vec3>{{0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {1, 1, 1}}));
+  EXPECT_FALSE(hull_shape({}, std::vector<Vec3>{{0, 0, 0}, {1, 1, 1}, {2, 2, 2}, {3, 3, 3}}));
 }
 
 const test::Label kAllCells("Solid.UnionsOfRandomShapes", "unsanitized");

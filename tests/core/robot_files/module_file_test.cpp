@@ -266,7 +266,17 @@ TEST_F(ModuleFileTest, Faces) {
 
 TEST_F(ModuleFileTest, ShapesAndContacts) {
   EXPECT_EQ(error("{box: [0.1, 0.1, 0.1]}", "{box: [0.1, 0.1, 0.1], sphere: 1}"),
-            "DIR/m.yaml:10:9: error: the shape has 2 of box, cylinder, half_cylinder and sphere; expected exactly one of them");
+            "DIR/m.yaml:10:9: error: the shape has 2 of box, cylinder, half_cylinder, sphere and hull; expected exactly one of "
+            "them");
+  const std::string expected = "; expected 4 to 64 points [x, y, z] that are not all in one plane";
+  EXPECT_EQ(error("{box: [0.1, 0.1, 0.1]}", "{hull: [[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]]}"),
+            "DIR/m.yaml:10:16: error: all points of the hull are in one plane" + expected);
+  EXPECT_EQ(error("{box: [0.1, 0.1, 0.1]}", "{hull: [[0, 0], [1, 0], [0, 1], [1, 1]]}"),
+            "DIR/m.yaml:10:16: error: a point of the hull has 2 numbers" + expected);
+  std::string many;
+  for (int k = 0; k < 65; ++k) many += (k > 0 ? ", " : "") + std::string("[0, 0, ") + std::to_string(k) + "]";
+  EXPECT_EQ(error("{box: [0.1, 0.1, 0.1]}", "{hull: [" + many + "]}"),
+            "DIR/m.yaml:10:16: error: the hull has 65 points" + expected);
   EXPECT_EQ(error("{box: [0.1, 0.1, 0.1]}", "{half_cylinder: [0.1, 0]}"),
             "DIR/m.yaml:10:31: error: half_cylinder[1] is 0 m; expected more than 0 m");
   EXPECT_EQ(error("sphere: [0, 0, 0], radius: 0.1", "sphere: [0, 0, 0]"), "DIR/m.yaml:18:9: error: missing key 'radius'");

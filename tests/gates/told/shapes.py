@@ -14,9 +14,11 @@ CORNERS = np.arange(24) * np.pi / 12
 
 class Shape:
     def __init__(self, data):
-        self.kind = next(k for k in ("box", "cylinder", "half_cylinder", "sphere") if k in data)
+        self.kind = next(k for k in ("box", "cylinder", "half_cylinder", "sphere", "hull") if k in data)
         self.size = np.atleast_1d(np.array(data[self.kind], float))
         self.origin, self.turn = np.array(data.get("origin", [0, 0, 0]), float), rpy(data.get("rpy", [0, 0, 0]))
+        if self.kind == "hull":
+            return
         half = self.kind == "half_cylinder"  # the half at positive x
         at = CORNERS[np.cos(CORNERS) > -1e-9] if half else CORNERS
         self.corners = self.size[0] * np.stack([np.cos(at), np.sin(at)])
@@ -26,6 +28,8 @@ class Shape:
         local = d @ self.turn
         if self.kind == "box":
             reach = np.abs(local) @ (self.size / 2)
+        elif self.kind == "hull":
+            reach = (local @ self.size.T).max(1)
         elif self.kind == "sphere":
             reach = self.size[0] * np.linalg.norm(d, axis=1)
         else:

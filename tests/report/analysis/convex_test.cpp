@@ -6,6 +6,8 @@
 #include <numbers>
 #include <random>
 
+#include "core/model/solid.h"
+
 namespace gaitlab::report {
 namespace {
 
@@ -24,6 +26,53 @@ TEST(Convex, BoxesFaceToFace) {
   EXPECT_NEAR(penetration(at(box(2, 2, 2), {0, 0, 0}), at(box(1, 1, 1), {1.4, 0, 0}), 0), 0.1, 1e-15);
   EXPECT_EQ(penetration(at(box(2, 2, 2), {0, 0, 0}), at(box(1, 1, 1), {1.6, 0, 0}), 0), 0);
   EXPECT_EQ(penetration(at(box(2, 2, 2), {0, 0, 0}), at(box(1, 1, 1), {1.4, 0, 0}), 0.2), 0) << "ignored";
+}
+
+/// The hull of the corners of a box overlaps others as the box does.
+TEST(Convex, AHullOfABoxIsTheBox) {
+  const Vec3 size(2, 2, 2);
+  const std::array<Vec3, 8> corners = box_corners(size);
+  const Shape hull = hull_shape({}, corners).value();
+  EXPECT_EQ(convex(hull).normals.size(), 3U) << "one for each pair of opposite faces";
+  EXPECT_EQ(convex(hull).directions.size(), 3U) << "one for all parallel edges";
+  for (int k = 0; k < 20; ++k) {
+    const Convex other = at(box(1, 3, 0.5), Vec3(1.4, 0.1 * k, 0.05 * k), Vec3(1, 2, 3).normalized(), 0.3 * k);
+    EXPECT_NEAR(penetration(at(hull, {0, 0, 0}), other, 0), penetration(at(box(2, 2, 2), {0, 0, 0}), other, 0), 1e-14) << k;
+  }
+}
+
+/// Two hulls of random points: the shortest way out is that of a search over 40 000 directions, which finds one at most 0.02
+/// rad away.
+TEST(Convex, HullsOfRandomPoints) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> any(-1, 1);
+  const auto drawn = [&] {
+    std::vector<Vec3> points;
+    for (int k = 0; k < 24; ++k) {
+      const double x = any(random), y = any(random), z = any(random);
+      points.emplace_back(x, y, z);
+    }
+    return convex(hull_shape({}, points).value());
+  };
+  constexpr int kDirections = 40000;  // on a spiral of Fibonacci
+  for (int pair = 0; pair < 10; ++pair) {
+    const Convex a = drawn();
+    const Convex b = moved(drawn(), {Mat3::Identity(), {0.2 * pair, 0.1, 0.3}});
+    double least = 1e9;
+    for (int k = 0; k < kDirections; ++k) {
+      const double z = 1 - (2 * k + 1.0) / kDirections;
+      const double angle = kPi * (3 - std::sqrt(5.0)) * k;
+      const Vec3 d(std::sqrt(1 - z * z) * std::cos(angle), std::sqrt(1 - z * z) * std::sin(angle), z);
+      double a_most = -1e9;
+      double b_least = 1e9;
+      for (const Vec3& vertex : a.vertices) a_most = std::max(a_most, d.dot(vertex));
+      for (const Vec3& vertex : b.vertices) b_least = std::min(b_least, d.dot(vertex));
+      least = std::min(least, a_most - b_least);
+    }
+    const double found = penetration(a, b, 0);
+    EXPECT_LE(found, std::max(0.0, least) + 1e-14) << pair;
+    EXPECT_NEAR(found, std::max(0.0, least), 0.03) << pair;
+  }
 }
 
 /// Edges of two boxes that touch: an edge along y, sqrt(1/2) to the right of the centre of the left box, and an edge along z.

@@ -29,12 +29,15 @@ interface Body {
 
 /**
  * Piece of a body. The size is x, y, z of a box; radius, length, 0 of a cylinder along y; radius, 0, 0 of a sphere.
- * A half_cylinder is the half at positive x of a cylinder.
+ * A half_cylinder is the half at positive x of a cylinder. A hull has corners, and faces as indices of corners,
+ * counter-clockwise as seen from outside.
  */
 export interface Shape {
-  kind: "box" | "cylinder" | "half_cylinder" | "sphere";
+  kind: "box" | "cylinder" | "half_cylinder" | "sphere" | "hull";
   pose: Pose;
   size: Vec3;
+  corners?: Vec3[];
+  faces?: number[][];
 }
 
 export interface Face {

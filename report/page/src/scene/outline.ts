@@ -1,6 +1,6 @@
 // Geometry of a body from its pieces. Pieces that form one convex prism are merged, such as the box and half cylinder
 // of an M-TRAN block.
-import { Float32BufferAttribute, SphereGeometry, Vector3, type BufferGeometry } from "three";
+import { Box3, Float32BufferAttribute, SphereGeometry, Vector3, type BufferGeometry } from "three";
 import type { Pose, Shape } from "../data/format";
 import { matrix, position, rotation } from "../data/kinematics";
 import { geometryOf } from "./shapes";
@@ -41,11 +41,11 @@ export function hull(points: readonly Point[]): Point[] {
 const area = (p: readonly Point[]): number =>
   Math.abs(p.reduce((sum, [x, y], i) => sum + x * p[(i + 1) % p.length][1] - p[(i + 1) % p.length][0] * y, 0)) / 2;
 
-/** Prism of a shape; null if the shape is a sphere, or if the axis of the shape is not along the body's y axis. */
+/** Prism of a shape; null if the shape is a sphere or a hull, or if the axis of the shape is not along the body's y axis. */
 function prism({ kind, pose, size }: Shape): Prism | null {
   const turn = rotation(pose);
   const along = new Vector3(0, 1, 0).applyQuaternion(turn);
-  if (kind === "sphere" || Math.abs(Math.abs(along.y) - 1) > 1e-9) return null;
+  if (kind === "sphere" || kind === "hull" || Math.abs(Math.abs(along.y) - 1) > 1e-9) return null;
   const flat: Point[] = [];
   if (kind === "box") {
     flat.push(
@@ -164,12 +164,22 @@ const piece = (points: readonly Point[], y0: number, y1: number): Piece => {
 
 const upright: Pose = [0, 0, 0, 1, 0, 0, 0];
 
+/** Surface of a hull, with flat faces. */
+function polyhedron({ corners = [], faces = [] }: Shape): BufferGeometry {
+  const at = faces.flatMap((face) =>
+    face.slice(2).flatMap((_, k) => [face[0], face[k + 1], face[k + 2]].flatMap((corner) => corners[corner])),
+  );
+  const made = geometryOf(at);
+  made.computeVertexNormals();
+  return made;
+}
+
 function single(shape: Shape): Piece {
   const along = prism(shape);
   if (along) return piece(along.points, along.y0, along.y1);
   const own = prism({ ...shape, pose: upright });
-  const sphere = new SphereGeometry(shape.size[0], 32, 20);
-  const { body, shadow } = own ? piece(own.points, own.y0, own.y1) : { body: sphere, shadow: sphere.clone() };
+  const round = shape.kind === "hull" ? polyhedron(shape) : new SphereGeometry(shape.size[0], 32, 20);
+  const { body, shadow } = own ? piece(own.points, own.y0, own.y1) : { body: round, shadow: round.clone() };
   const placed = matrix(shape.pose);
   return { body: body.applyMatrix4(placed), shadow: shadow.applyMatrix4(placed) };
 }
@@ -187,7 +197,11 @@ export function outline(shapes: readonly Shape[]): Piece[] {
 }
 
 /** Centre and half lengths of the bounding box of a piece, in the frame of the piece. */
-export function extents({ kind, size: [a, b, c] }: Shape): { centre: Vector3; half: Vector3 } {
+export function extents({ kind, size: [a, b, c], corners = [] }: Shape): { centre: Vector3; half: Vector3 } {
+  if (kind === "hull") {
+    const box = new Box3().setFromPoints(corners.map((corner) => new Vector3(...corner)));
+    return { centre: box.getCenter(new Vector3()), half: box.getSize(new Vector3()).multiplyScalar(0.5) };
+  }
   if (kind === "box") return { centre: new Vector3(), half: new Vector3(a / 2, b / 2, c / 2) };
   if (kind === "sphere") return { centre: new Vector3(), half: new Vector3(a, a, a) };
   if (kind === "cylinder") return { centre: new Vector3(), half: new Vector3(a, b / 2, a) };
