@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
 #include <optional>
 
 #include "app/look/cells.h"
@@ -119,7 +120,8 @@ std::string servo_table(const std::string& path, const std::string& about, const
   const Node& map = servo->actuator;
   table.begin("line");
   add_numbers(actuator, map, {"voltage", "stall_torque", "no_load_speed", "stall_current", "efficiency"}, table);
-  if (const DcMotor* const motor = make_actuator(actuator, robot)->dc_motors();
+  const std::unique_ptr<Actuator> made = make_actuator(actuator, robot);
+  if (const DcMotor* const motor = made->dc_motors();
       motor != nullptr && map.find("stall_current") == nullptr && map.find("efficiency") == nullptr)
     table.add("efficiency", number(motor->efficiency, ""), false);
   table.begin("friction");

@@ -61,7 +61,7 @@ TEST_F(IdentifyPage, HasTheNumbersOfTheTerminalAndNoMarkupOfFiles) {
   std::smatch row;
   ASSERT_TRUE(std::regex_search(one.out, row, std::regex("\n  actuator.dry_friction +(\\S+)  (.+?)  +N m  +(\\S+)  +-\n")))
       << one.out;
-  for (int i = 1; i < 4; ++i) EXPECT_TRUE(contains(cells, "<td>" + row[i].str() + "</td>")) << row[i];
+  for (std::size_t i = 1; i < 4; ++i) EXPECT_TRUE(contains(cells, "<td>" + row[i].str() + "</td>")) << row[i];
   for (const char* logs : {"fitted logs", "held-out logs"}) {
     ASSERT_TRUE(std::regex_search(one.out, row,
                                   std::regex(std::string("\n  angle  +") + logs + "  +\\d  +(\\S+ mrad)  +(\\S+ mrad)\n")))
