@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kMostDeviations = 3;
 constexpr double kMostShare = 0.3;     // a factor that is three deviations low is then still 0.1
-constexpr double kMostFriction = 0.5;  // as much as chosen friction may be off
+constexpr double kMostFriction = 0.5;  // as much as chosen friction may be off; also of play, which differs as much
 constexpr double kMostAngle = 0.1;     // rad
 constexpr double kLeastFactor = 0.01;
 constexpr double kMostFactor = 100;
@@ -25,18 +25,18 @@ constexpr Spec angle(const char* about) { return {"rad", -0.5, 0.5, about}; }
 
 /// Positions in kTolerances.
 struct Deviation {
-  enum : std::size_t { mass, inertia, dock_angle, foot_friction, R, Kt, gear_friction, supply };
+  enum : std::size_t { mass, inertia, dock_angle, foot_friction, R, Kt, gear_friction, play, supply };
 };
 /// Positions in kBuiltNumbers.
 struct Number {
-  enum At : std::size_t { mass, inertia, dock_x, dock_y, dock_z, foot_friction, R, Kt, gear_friction, supply };
+  enum At : std::size_t { mass, inertia, dock_x, dock_y, dock_z, foot_friction, R, Kt, gear_friction, play, supply };
 };
 
 using Of = BuiltNumber::Of;
 
 }  // namespace
 
-const std::array<Tolerance, 8> kTolerances{{
+const std::array<Tolerance, 9> kTolerances{{
     {"mass", share("Deviation of a module's mass, as a share. The moments of inertia follow the mass.")},
     {"inertia", share("Further deviation of a module's moments of inertia, as a share.")},
     {"dock_angle", {"rad", 0, kMostAngle, "Deviation of the angle of a dock, about each of three axes."}},
@@ -46,10 +46,11 @@ const std::array<Tolerance, 8> kTolerances{{
     {"gear_friction",
      {"", 0, kMostFriction,
       "Deviation of a gear's loss (1 - efficiency) and of a joint's friction, as a share. Draws are cut at a factor of 0.01."}},
+    {"play", {"", 0, kMostFriction, "Deviation of the play of a gear, as a share. Draws are cut at a factor of 0.01."}},
     {"supply", share("Deviation of the motors' voltage limit, as a share; one draw for the whole robot, as for its battery.")},
 }};
 
-const std::array<BuiltNumber, 10> kBuiltNumbers{{
+const std::array<BuiltNumber, 11> kBuiltNumbers{{
     {"mass", Of::modules, Deviation::mass, 1, factor("Factor on a module's mass and moments of inertia.")},
     {"inertia", Of::modules, Deviation::inertia, 1, factor("Further factor on a module's moments of inertia.")},
     {"dock_x", Of::modules, Deviation::dock_angle, 0,
@@ -66,6 +67,7 @@ const std::array<BuiltNumber, 10> kBuiltNumbers{{
     {"Kt", Of::motors, Deviation::Kt, 1, factor("Factor on the torque constant and the back-EMF constant of a motor.")},
     {"gear_friction", Of::motors, Deviation::gear_friction, 1,
      factor("Factor on a gear's loss (1 - efficiency, or load_friction) and on the friction of the motor's joint.")},
+    {"play", Of::gears, Deviation::play, 1, factor("Factor on the play of the gear of a joint.")},
     {"supply", Of::robot, Deviation::supply, 1, factor("Factor on the motors' voltage limits.")},
 }};
 
@@ -109,7 +111,8 @@ std::vector<std::string> parts_with(const BuiltNumber& number, const Robot& robo
     parts = module_names(robot);
     if (number.tolerance == Deviation::dock_angle) parts.front().clear();
   } else {
-    for (const Joint& joint : robot.joints) parts.push_back(joint.driven() ? joint.name : "");
+    const bool gears = number.of == Of::gears;
+    for (const Joint& joint : robot.joints) parts.push_back((gears ? joint.play.any() : joint.driven()) ? joint.name : "");
   }
   return parts;
 }
@@ -150,6 +153,17 @@ std::vector<ModuleBuild> module_builds(const AsBuilt& built, std::size_t modules
   const bool any = std::ranges::any_of(all, [](const ModuleBuild& one) { return one != ModuleBuild(); });
   return any ? all : std::vector<ModuleBuild>();
 }
+
+std::string play_key(const AsBuilt& stated, const Tolerances& tolerances) {
+  const PerJoint& play = stated.numbers[Number::play];
+  const bool states = play.each.empty() ? !std::isnan(play.common) && play.common != 1
+                                        : std::ranges::any_of(play.each, [](double x) { return !std::isnan(x) && x != 1; });
+  if (states) return std::string(kAsBuiltSection) + "." + kBuiltNumbers[Number::play].key;
+  const bool drawn = tolerances.deviation[Deviation::play] > 0;
+  return drawn ? std::string(kTolerancesSection) + "." + kTolerances[Deviation::play].key : "";
+}
+
+double play_build(const AsBuilt& built, std::size_t joint) { return built.numbers[Number::play][joint]; }
 
 MotorBuild motor_build(const AsBuilt& built, std::size_t joint) {
   return {built.numbers[Number::R][joint], built.numbers[Number::Kt][joint], built.numbers[Number::gear_friction][joint],

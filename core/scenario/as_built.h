@@ -25,7 +25,7 @@ struct Tolerance {
 
 /// A number in the section `as_built`, for each part of one category.
 struct BuiltNumber {
-  enum class Of { robot, modules, motors };
+  enum class Of { robot, modules, motors, gears };
   const char* key;
   Of of;
   std::size_t tolerance;  ///< index in kTolerances
@@ -36,12 +36,12 @@ struct BuiltNumber {
 inline constexpr const char* kTolerancesSection = "tolerances";
 inline constexpr const char* kAsBuiltSection = "as_built";
 
-extern const std::array<Tolerance, 8> kTolerances;
-extern const std::array<BuiltNumber, 10> kBuiltNumbers;
+extern const std::array<Tolerance, 9> kTolerances;
+extern const std::array<BuiltNumber, 11> kBuiltNumbers;
 
 /// Values of the section `tolerances`, in the order of kTolerances.
 struct Tolerances {
-  std::array<double, 8> deviation{};
+  std::array<double, 9> deviation{};
   [[nodiscard]] bool any() const { return *this != Tolerances(); }
   bool operator==(const Tolerances&) const = default;
   void fields(Fields& f);
@@ -49,7 +49,7 @@ struct Tolerances {
 
 /// Values of the section `as_built`, in the order of kBuiltNumbers. All are neutral by default.
 struct AsBuilt {
-  std::array<PerJoint, 10> numbers;
+  std::array<PerJoint, 11> numbers;
 
   AsBuilt();
   /// All numbers unknown (NaN), for the time before the section is read.
@@ -63,15 +63,20 @@ struct AsBuilt {
 std::vector<std::string> module_names(const Robot& robot);
 
 /// Parts of the robot that have a number. The name is empty for a part that cannot differ: for module 0, the root, if the
-/// number concerns docks, and for a hinge without a motor.
+/// number concerns docks, for a hinge without a motor, and, if the number concerns gears, for a gear without play.
 std::vector<std::string> parts_with(const BuiltNumber& number, const Robot& robot);
 
 /// Replaces unknown numbers by draws. Numbers of parts that cannot differ are neutral: docks of module 0, motors of hinges
-/// without a motor. Returns the number of draws.
+/// without a motor, gears without play. Returns the number of draws.
 std::size_t draw(AsBuilt& built, const Tolerances& tolerances, const Robot& robot, std::uint64_t seed);
 
 /// The differences of each module; empty if there are none.
 std::vector<ModuleBuild> module_builds(const AsBuilt& built, std::size_t modules);
+
+/// Key that states or draws factors on play other than 1, such as tolerances.play; empty if there is none.
+std::string play_key(const AsBuilt& stated, const Tolerances& tolerances);
+/// Factor on the play of a joint's gear.
+double play_build(const AsBuilt& built, std::size_t joint);
 
 /// Factors on the constants of a motor.
 struct MotorBuild {

@@ -83,13 +83,34 @@ class BuiltMotors final : public MotorBank {
   }
 };
 
+/// Advice for a tolerance one of whose draws is too large: no draw is more than three deviations off.
+std::string as_every_seed(double most, std::int64_t seed) {
+  return fmt::format("which every seed gives with a deviation below {:.4g} (this is seed {})", most / 3, seed);
+}
+
+/// Applies the factors on play to the robot.
+void build_gears(Scenario& scenario) {
+  std::shared_ptr<Robot> built;
+  for (const std::size_t j : joints_with_play(*scenario.robot)) {
+    const double factor = play_build(scenario.as_built, j);
+    if (factor == 1) continue;
+    if (!built) built = std::make_shared<Robot>(*scenario.robot);
+    built->joints[j].play.width *= factor;
+  }
+  if (built) scenario.robot = std::move(built);
+}
+
 }  // namespace
 
 std::string build_robot(Scenario& scenario, bool stated) {
   const Robot& drawn = *scenario.robot;
+  const bool no_play = joints_with_play(drawn).empty();
+  const std::string play = no_play ? play_key(scenario.as_built, scenario.tolerances) : "";
   scenario.drawn = draw(scenario.as_built, scenario.tolerances, drawn, static_cast<std::uint64_t>(scenario.seed));
   const std::vector<ModuleBuild> modules = module_builds(scenario.as_built, drawn.modules.size());
   if (!modules.empty()) scenario.robot = std::make_shared<const Robot>(as_built(drawn, modules));
+  build_gears(scenario);
+  if (!play.empty()) return play + " has no effect, because no gear of the robot has play";
   if (scenario.drawn > 0 || !scenario.tolerances.any()) return "";
   return stated ? "tolerances has no effect, because as_built states every number, as in the resolved scenario of a run; for "
                   "another robot use the original scenario, or --set as_built={}"
@@ -138,10 +159,26 @@ std::string not_buildable(const Scenario& scenario, const Actuator* actuator, co
         "gear_friction {:.4g} changes the gear efficiency of {} from {:.4g} to {:.4g}; expected an efficiency above 0, ",
         factor, scenario.robot->joints[j].name, 1 - lost, eta);
     if (of_motors.starts_with(kTolerancesSection)) {
-      return wrong + fmt::format("which every seed gives with a deviation below {:.4g} (this is seed {})", (1 / lost - 1) / 3,
-                                 scenario.seed);
+      return wrong + as_every_seed(1 / lost - 1, scenario.seed);
     }
     return wrong + fmt::format("thus a factor below {:.4g}", 1 / lost);
+  }
+  return "";
+}
+
+std::string too_much_play(const Scenario& scenario, const std::string& of_gears) {
+  const Robot& robot = *scenario.robot;
+  for (const std::size_t j : joints_with_play(robot)) {
+    const Joint& joint = robot.joints[j];
+    const double factor = play_build(scenario.as_built, j);
+    const double range = joint.hi - joint.lo;
+    if (factor == 1 || joint.play.width < range) continue;
+    const double drawn = joint.play.width / factor;
+    const std::string wrong = fmt::format(
+        "play {:.4g} changes the play of {} from {:.4g} to {:.4g} rad; expected less than its range of {:.4g} rad, ", factor,
+        joint.name, drawn, joint.play.width, range);
+    if (of_gears.starts_with(kTolerancesSection)) return wrong + as_every_seed(range / drawn - 1, scenario.seed);
+    return wrong + fmt::format("thus a factor below {:.4g}", range / drawn);
   }
   return "";
 }

@@ -24,4 +24,7 @@ std::unique_ptr<Actuator> make_motors(const Scenario& scenario);
 /// `of_motors` is a key of these differences, such as `tolerances.R`.
 std::string not_buildable(const Scenario& scenario, const Actuator* actuator, const std::string& of_motors);
 
+/// Joint whose play as built is not less than its range, as a reason; empty if there is none. `of_gears`: as above.
+std::string too_much_play(const Scenario& scenario, const std::string& of_gears);
+
 }  // namespace gaitlab

@@ -140,8 +140,11 @@ void ScenarioChecks::parts_as_built() {
     for (const auto& [name, place] : map->keys) {
       // The reader has already reported names that no part has.
       if (std::ranges::find(all, name) == all.end() || std::ranges::find(parts, name) != parts.end()) continue;
+      const bool of_gears = kBuiltNumbers[i].of == BuiltNumber::Of::gears;
       problems_.add(place, fmt::format("{} has no {}: {}", name, kBuiltNumbers[i].key,
-                                       of_modules ? "it is docked to no parent" : "its hinge has no motor"));
+                                       of_modules ? "it is docked to no parent"
+                                       : of_gears ? "play is a key of hinges in module files"
+                                                  : "its hinge has no motor"));
     }
   }
 }
@@ -156,7 +159,10 @@ void ScenarioChecks::built_numbers(const Actuator* actuator) {
     const char* section = stated ? kAsBuiltSection : kTolerancesSection;
     const char* key = stated ? number.key : kTolerances[number.tolerance].key;
     std::string wrong;
-    if (number.of != BuiltNumber::Of::modules) {
+    const bool of_motors = number.of == BuiltNumber::Of::motors || number.of == BuiltNumber::Of::robot;
+    if (number.of == BuiltNumber::Of::gears) {
+      wrong = too_much_play(scenario_, fmt::format("{}.{}", section, key));
+    } else if (of_motors) {
       wrong = not_buildable(scenario_, actuator, fmt::format("{}.{}", section, key));
     } else if (number.key == std::string_view("foot_friction") && !scenario_.contact.model().penalty_settings) {
       wrong = fmt::format("{}.{} does not apply to contact law '{}', which has one coefficient; expected contact.law: penalty",
@@ -164,7 +170,7 @@ void ScenarioChecks::built_numbers(const Actuator* actuator) {
     }
     if (wrong.empty()) continue;
     problems_.add(place_of(root_, section, key), wrong);
-    if (number.of != BuiltNumber::Of::modules) return;  // the other numbers of motors have the same problem
+    if (of_motors) return;  // the other numbers of motors have the same problem
   }
 }
 

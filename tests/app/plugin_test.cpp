@@ -224,6 +224,21 @@ TEST_F(Plugins, WhatOneThrowsWhenTheRunIsJudgedKeepsTheTrace) {
   EXPECT_TRUE(std::filesystem::exists(folder / "run/trace.h5"));
 }
 
+/// A second run that fails is told, and costs neither the verdict of the first nor its files. The servos are too weak to hold
+/// their module.
+TEST_F(Plugins, WhatOneThrowsInTheRunWithoutFrictionIsANote) {
+  const std::string weak = "actuator: {type: servo, voltage: 6, stall_torque: 0.02, no_load_speed: 5}\n";
+  for (const std::string where : {"start", "times"}) {
+    folder.write("s.yaml", throwing("cpg", "second " + where) + weak);
+    const Result result = gaitlab("run s.yaml --no-retry --no-report --out " + where, folder / "");
+    EXPECT_EQ(result.code, 0) << result.err;
+    EXPECT_TRUE(contains(result.out, "verdict   infeasible: ")) << result.out;
+    EXPECT_TRUE(contains(result.err, "s.yaml: note: the word without this friction is not known: ")) << result.err;
+    EXPECT_TRUE(contains(result.err, ": " + where + " threw: no luck")) << result.err;
+    EXPECT_FALSE(contains(read(folder / (where + "/verdict.json")), "without_chosen_friction"));
+  }
+}
+
 TEST_F(Plugins, ANewOneIsWrittenOnce) {
   EXPECT_EQ(gaitlab("new plugin cpg ripple", folder / "").code, 0);
   const std::string code = read(folder / "ripple/ripple.cpp");

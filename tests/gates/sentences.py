@@ -28,6 +28,7 @@ except ImportError as error:
     sys.exit(77)
 
 from told import draws, page, screen
+from told.gears import hear_gears
 from told.record import Record
 from told.verdict import Judged, compare, hear, hear_evidence, hear_unstable, sentence, tightest
 
@@ -73,7 +74,9 @@ class Gate:
         """Word of an infeasible run without the friction of its servos that is only chosen: of a further run, all of whose sentences
         are checked, too. None where no friction is chosen."""
         actuator = record.scenario.get("actuator") or {}
-        chosen = [key for key in CHOSEN if key not in actuator]  # the resolved scenario contains what is stated
+        plays = any(hinge.get("play", 0) > 0 for kind in record.robot.types.values() for hinge in kind.get("hinges", []))
+        # The resolved scenario contains what is stated. A motor within its play keeps its inertia.
+        chosen = [key for key in CHOSEN if key not in actuator and not (plays and key == "rotor_inertia")]
         if verdict["verdict"] != "infeasible" or actuator.get("type") != "servo" or not chosen:
             return None
         out = folder.parent / "without"
@@ -136,7 +139,7 @@ class Gate:
             wrong += (compare(told, check) if told else []) + hear(told, check, check["text"], "verdict.json")
             if told:
                 self.mutate(told, check)
-        wrong += hear_evidence(judged, verdict)
+        wrong += hear_evidence(judged, verdict) + hear_gears(record)
         word = judged.word(verdict["checks"])
         self.words[verdict["verdict"]] += 1
         self.reasons.append(verdict["reason"])

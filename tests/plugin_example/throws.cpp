@@ -24,7 +24,13 @@ struct ThrowingCpg final : Cpg {
   using Settings = ::Settings;
   ThrowingCpg(const RobotInfo&, const Settings& settings) : s(settings) { s.at("constructor"); }
   std::size_t states() const override { return 1; }
-  void start(Out) const override { s.at("start"); }
+  void start(Out) const override {
+    s.at("start");
+    if (!judged) return;
+    s.at("second start");
+    ran = false;
+    second = true;
+  }
   void derivative(const Measured&, In, Out) const override { s.at("derivative"); }
   void event(const Measured&, Out) const override { s.at("event"); }
   void output(double t, In, Out setpoint) const override {
@@ -34,7 +40,10 @@ struct ThrowingCpg final : Cpg {
     ran = true;
   }
   [[nodiscard]] SetPointTimes times() const override {
-    if (ran) s.at("times");
+    if (!ran) return {};
+    s.at("times");
+    if (second) s.at("second times");
+    judged = true;
     return {};
   }
   std::string note() const override {
@@ -42,7 +51,9 @@ struct ThrowingCpg final : Cpg {
     return {};
   }
   Settings s;
-  static inline bool ran = false;  // times() works when the scenario is read, and fails when the run is judged
+  static inline bool ran = false;     // times() works when the scenario is read, and fails when the run is judged
+  static inline bool judged = false;  // a start after the run was judged is that of a second run
+  static inline bool second = false;
 };
 
 struct ThrowingController final : Controller {

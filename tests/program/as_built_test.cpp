@@ -187,7 +187,7 @@ TEST(AsBuilt, WrongInput) {
       {"tolerances.dock_angle=5 deg", "dock_angle is '5 deg'; expected a number in rad"},
       {"tolerances.mas=0.1", "unknown key 'mas'; did you mean 'mass'?"},
       {"tolerances.zero=0.1",
-       "unknown key 'zero'; known keys: mass, inertia, dock_angle, foot_friction, R, Kt, gear_friction, supply"},
+       "unknown key 'zero'; known keys: mass, inertia, dock_angle, foot_friction, R, Kt, gear_friction, play, supply"},
       {"tolerances=0.1", "tolerances is 0.1; expected a map"},
       {"tolerances={R: {m3/active: 0.1}}", "R is a map; expected a number"},
       {"as_built=1", "as_built is 1; expected a map"},

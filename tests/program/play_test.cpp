@@ -5,8 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "core/scenario/resolved.h"
 #include "core/simulation/batch.h"
 #include "tests/folder.h"
+#include "tests/messages.h"
 #include "tests/program/as_alone.h"
 #include "tests/program/engines.h"
 #include "tests/program/rod.h"
@@ -281,6 +283,70 @@ TEST_P(Play, StopsTheLinkAtItsRange) {
   EXPECT_NEAR(end(record, "joint.0.gear_torque"), 50 * (angle - 0.2), 1e-4);
   EXPECT_NEAR(end(record, "joint.0.stop_torque"), -50 * (angle - 0.2), 1e-4);
   EXPECT_NEAR(end(record, "joint.0.motor_angle"), 2 * angle - 0.2 + robot.play / 2, 1e-5);
+}
+
+/// A factor of 2 changes no digit: the robot as built is that of other drawings.
+TEST_P(Play, AsBuiltIsThatOfOtherDrawings) {
+  Geared robot{GetParam()};
+  robot.duration = 0.5;
+  const std::string wide = alone(robot.read());
+  robot.play = 0.025;
+  EXPECT_EQ(alone(scenario(robot.text(), {"as_built.play=2"})), wide);
+  EXPECT_EQ(alone(scenario(robot.text(), {"as_built={play: {m0/swing: 2}}"})), wide);
+  EXPECT_NE(alone(robot.read()), wide);
+}
+
+TEST(PlayTolerances, DrawAGearOfEachSeed) {
+  Geared robot;
+  robot.duration = 0.3;
+  robot.physics = "accuracy: 0.01, estimate: off";
+  robot.play = 0.02;
+  std::vector<Scenario> lanes;
+  std::vector<double> widths;
+  for (int seed = 1; seed <= 8; ++seed) {
+    lanes.push_back(scenario(robot.text(), {"tolerances.play=0.2", fmt::format("seed={}", seed)}));
+    const Scenario& s = lanes.back();
+    EXPECT_EQ(s.drawn, 1U);
+    widths.push_back(s.robot->joints[0].play.width);
+    EXPECT_NEAR(widths.back(), robot.play, 3 * 0.2 * robot.play) << "draws are cut at three deviations";
+    const std::string own = resolved(s);
+    EXPECT_EQ(scenario(own).robot->joints[0].play.width, widths.back());
+    EXPECT_EQ(scenario(own, {"seed=77"}).robot->joints[0].play.width, widths.back()) << "the resolved scenario states the draw";
+  }
+  std::ranges::sort(widths);
+  EXPECT_TRUE(std::ranges::adjacent_find(widths) == widths.end()) << "all differ";
+  expect_as_alone(lanes, 7);
+}
+
+TEST(PlayTolerances, AreRefusedBeyondTheRange) {
+  Geared robot;
+  robot.play = 0.02;
+  std::string text = robot.text();
+  text.replace(text.find("range: free"), 11, "range: [-0.015, 0.015]");
+  const auto wrong = [&](const std::string& set) { return message_of([&] { scenario(text, {set}); }); };
+  EXPECT_EQ(scenario(text, {"as_built.play=1.4"}).robot->joints[0].play.width, 0.02 * 1.4);
+  EXPECT_TRUE(contains(wrong("as_built.play=2"),
+                       "play 2 changes the play of m0/swing from 0.02 to 0.04 rad; expected less than its range of 0.03 rad, "
+                       "thus a factor below 1.5"))
+      << wrong("as_built.play=2");
+  std::string drawn = kNoError;
+  for (int seed = 1; seed < 200 && drawn == kNoError; ++seed)
+    drawn = message_of([&] { scenario(text, {"tolerances.play=0.5", fmt::format("seed={}", seed)}); });
+  EXPECT_TRUE(contains(drawn, "which every seed gives with a deviation below 0.1667 (this is seed ")) << drawn;
+  EXPECT_TRUE(contains(wrong("tolerances.play=0.6"), "play is 0.6; expected 0 to 0.5"));
+}
+
+TEST(PlayTolerances, HaveNoEffectWithoutPlay) {
+  Geared robot;
+  robot.play = 0;
+  for (const auto& [set, key] : {std::pair{"tolerances.play=0.2", "tolerances.play"}, {"as_built.play=2", "as_built.play"}}) {
+    const Scenario s = scenario(robot.text(), {set});
+    ASSERT_FALSE(s.notes.empty()) << set;
+    EXPECT_EQ(s.notes.back().text, std::string(key) + " has no effect, because no gear of the robot has play");
+    EXPECT_EQ(s.drawn, 0U);
+  }
+  robot.play = 0.02;
+  EXPECT_TRUE(scenario(robot.text(), {"tolerances.play=0.2"}).notes.empty());
 }
 
 const std::string kServo = "{type: servo, voltage: 6, stall_torque: 8, no_load_speed: 6}";

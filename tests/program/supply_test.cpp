@@ -158,6 +158,50 @@ TEST(Supply, AChargedBatteryRaisesTheBoundOfAStatedUMaxAlone) {
   EXPECT_GT(largest("12"), 7.5);
 }
 
+/// Six rods that turn against their commands: V = (V0 + r sum of d k w / R) / (1 + r sum of d^2 / R), also where the sum is a
+/// charge; the battery counts what comes back. Without `regenerates` the bus then stays at V0, and its current is 0.
+TEST(Supply, ARobotThatBrakesRaisesTheBusByTheClosedForm) {
+  std::string text = rods(0.3);
+  text.replace(text.find("least: 6"), 8, "regenerates: true");
+  const std::vector<std::string> sets{"initial.speeds=20", "actuator.u_max=18", "duration=0.5",
+                                      "trace.columns=[t, joint.*, supply.*]"};
+  const Recording r = run(scenario(text, sets));
+  std::vector<std::string> burnt = sets;
+  burnt.emplace_back("supply.regenerates=false");
+  const Recording none = run(scenario(text, burnt));
+  const auto bus = [](const Recording& run, std::size_t k) {
+    const Table row(run.trace);
+    double conductance = 0;
+    double back = 0;
+    for (int j = 0; j < 6; ++j) {
+      const auto at = [&](std::size_t i, const char* what) { return row.at(i, fmt::format("joint.{}.{}", j, what)); };
+      const double d = std::clamp(6 * (at(k, "setpoint") - at(k - 1, "angle")), -1.0, 1.0);
+      conductance += d * d / 2.25;
+      back += d * 0.75 * at(k - 1, "speed") / 2.25;
+    }
+    return (7.4 + 0.2 * back) / (1 + 0.2 * conductance);
+  };
+  const Table row(r.trace);
+  const Table other(none.trace);
+  double charge = 0;
+  double most = 0;
+  std::size_t held = 0;
+  for (std::size_t k = 1; k < r.trace.rows(); ++k) {
+    const double volts = row.at(k, "supply.voltage");
+    EXPECT_NEAR(volts, bus(r, k), 1e-9) << k;
+    EXPECT_NEAR(row.at(k, "supply.current"), (7.4 - volts) / 0.2, 1e-9) << k;
+    charge += row.at(k, "supply.current") * 0.005;
+    EXPECT_NEAR(r.supply.at(k, kCharge), charge, 1e-9) << k;
+    most = std::max(most, volts);
+    EXPECT_NEAR(other.at(k, "supply.voltage"), std::min(7.4, bus(none, k)), 1e-9) << k;
+    if (bus(none, k) <= 7.4) continue;
+    ++held;
+    EXPECT_EQ(other.at(k, "supply.current"), 0) << k;
+  }
+  EXPECT_GT(most, 7.9);
+  EXPECT_GT(held, 5U);
+}
+
 TEST(Supply, HasALineOfItsEnduranceWhereACapacityIsStated) {
   const Folder folder;
   folder.write("s.yaml", rods(0.3));

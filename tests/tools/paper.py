@@ -24,7 +24,8 @@ HEAD = ("robot", "amplitude rad", "Kn N/m", "k N m/rad", "torque min N m", "torq
         "verdict", "decided by")
 SETTINGS = ("controller.Kp=1570", "controller.Kp=100", "controller.Kp=785", "controller.Kp=1180", "controller.Kp=2356", "controller.Ki=500",
             "contact.stiffness=2e3", "contact.stiffness=5e3", "contact.stiffness=2e4", "contact.stiffness=4e4", "contact.slip_speed=0.001",
-            "ground.friction=0.4", "actuator.efficiency=0.5", "actuator.efficiency_model=directional")
+            "ground.friction=0.4", "actuator.dry_friction=0.1", "actuator.viscous_friction=0.0625", "actuator.efficiency=0.5",
+            "actuator.efficiency_model=directional")
 BEGIN, END = "<!-- settings: written by tests/tools/paper.py -->\n", "<!-- end of settings -->\n"
 # Joint, window in s, and amplitudes in rad of each robot.
 FIGURES = {"caterpillar": (7, 6, 14, (0.6,)), "hexapod": (5, 4, 8, (0.3, 0.4))}

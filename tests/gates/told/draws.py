@@ -4,10 +4,13 @@ A seed makes them reproducible.
 A draft run shows what happens; ratings and limits are then drawn around that, so that each fails in some runs, warns in others
 and is kept in others. The file that runs is the draft's resolved scenario with these, as JSON, which is YAML."""
 import json
+import pathlib
 import random
 
 import numpy as np
+import yaml
 
+from yaml12 import Loader
 from told.motors import grown, peaks
 from told.record import LIMITS, Record
 from told.verdict import Judged
@@ -125,6 +128,24 @@ SUPPLIED = {
     "caterpillar, battery": ("caterpillar", BUS + ["duration=12", "supply={voltage: 7.4, resistance: 0.3, current: 2, least: 6.6}"]),
     "hexapod, brown-out": ("hexapod", BUS + ["duration=6", "cpg.frequency=0.8", "supply={voltage: 7.4, resistance: 1.2, current: 1, least: 6}"]),
 }
+# Gears with play: the scenario, its module type, whose hinges get the play, and settings.
+GEARED = {
+    "a worm with play": ("library/ckbot-worm", "ckbot", ["duration=6"]),
+    "a caterpillar with play": ("caterpillar", "mtran", ["duration=4", "cpg.frequency=1", "actuator.rotor_inertia=1e-8",
+        "actuator.dry_friction=0.05"]),
+}
+SCENARIOS = pathlib.Path(__file__).parents[3] / "scenarios"
+
+
+def geared(rng, scenario, module, settings):
+    """Text of a scenario with random play in every hinge, drawn again within tolerances, and its settings."""
+    load = lambda name: yaml.load((SCENARIOS / f"{name}.yaml").read_text(), Loader)
+    text, kind = load(scenario), load(f"modules/{module}")
+    for hinge in kind["hinges"]:
+        hinge |= {"play": rng.uniform(0.003, 0.04), "encoder": rng.choice(["output", "motor"]), "play_stiffness": 10 ** rng.uniform(1.5, 2.5)}
+    text["robot"]["modules"] = kind
+    text["tolerances"] = {"play": rng.uniform(0.05, 0.4), "gear_friction": 0.1}
+    return [json.dumps(text)], FAST + settings + [f"seed={rng.randrange(1, 10**6)}"]
 
 
 def random_tree(rng, count):
@@ -225,4 +246,5 @@ def plan(seed):
         texts = [TREE.format(name=f"random-{k}", docks=random_tree(rng, rng.randint(3, 6)), cpg=rng.choice(CPGS),
                              lag=f"{rng.uniform(0, 2):.3f}") for _ in range(20)]
         out.append((f"random {k}", texts, FAST))
-    return out + [(name, *run) for runs in (UNBORNE, LATER, SUPPLIED) for name, run in runs.items()]
+    out += [(name, *run) for runs in (UNBORNE, LATER, SUPPLIED) for name, run in runs.items()]
+    return out + [(name, *geared(rng, *run)) for name, run in GEARED.items()]

@@ -107,17 +107,19 @@ class Record:
         self.stall = nothing  # stall torque at the supply, of any model of the efficiency
         held = nothing  # torque at rest of the simulated motor
         directional = a.get("efficiency_model") == "directional"
+        worn = self.per_joint(self.scenario.get("as_built", {}), "gear_friction", 1.0)  # factor on the losses of each joint
         with np.errstate(divide="ignore", invalid="ignore"):
             if kind == "dc_motor":
-                dry, viscous = np.nan_to_num(of("dry_friction")), np.nan_to_num(of("viscous_friction"))
-                drive = of("efficiency") * of("Kt") * of("gear") / of("R")
+                dry, viscous = worn * np.nan_to_num(of("dry_friction")), worn * np.nan_to_num(of("viscous_friction"))
+                gear_share = 1 - worn * (1 - of("efficiency"))
+                drive = gear_share * of("Kt") * of("gear") / of("R")
                 self.no_load = (drive * of("u_max") - dry) / (drive * of("Ks") * of("gear") + viscous)
                 current = np.minimum(of("u_max") / of("R"), of("i_max"))
-                self.at_rest = of("gear") * of("efficiency") * of("Kt") * current
-                self.stall = of("gear") * of("efficiency") * of("Kt") * of("u_max") / of("R")
-                held = self.at_rest / (of("efficiency") if directional else 1) + dry
+                self.at_rest = of("gear") * gear_share * of("Kt") * current
+                self.stall = of("gear") * gear_share * of("Kt") * of("u_max") / of("R")
+                held = self.at_rest / (gear_share if directional else 1) + dry
                 self.limited, self.i_max = self.driven.copy(), of("i_max")
-                self.torque_constant, self.speed_constant = of("efficiency") * of("Kt"), of("Ks")
+                self.torque_constant, self.speed_constant = gear_share * of("Kt"), of("Ks")
                 self.makes_energy = self.driven & (self.torque_constant > self.speed_constant * (1 + 1e-9))
             elif kind == "servo":
                 v, t0, w0 = of("voltage"), of("stall_torque"), of("no_load_speed")
@@ -137,6 +139,8 @@ class Record:
                     k = v / free
                     stall = np.nan_to_num(of("stall_current"))
                     stall = np.where(stall > 0, stall, line / (np.where(efficiency > 0, efficiency, 0.7) * k))
+                # The line is that of the drawings; its losses are those of the robot as built.
+                load, dry, viscous = (1 - worn * share) / (1 + worn * share), worn * dry, worn * viscous
                 eta = line / (stall * k)
                 self.i_max = np.where(of("i_max") > 0, of("i_max"), stall)
                 largest = line * np.minimum(1, np.minimum(u / v, self.i_max / stall))  # of the motor at rest
