@@ -84,7 +84,7 @@ class Plays {
     for (std::size_t k = 0; k < size(); ++k) {
       const std::size_t j = joint(k);
       const T K = T(h) * slope[k];
-      const T free = inertia_[k] + T(h) * motors.slope[j];  // without the flanks
+      const T free = without_flanks(k, motors, h);
       const T held = stop[j] - torque[k];
       const T share = K / (free + K);
       const auto sticks = motors.any_jump ? motors.sticks[j] : math::Mask<T>{};
@@ -100,7 +100,7 @@ class Plays {
       const std::size_t j = joint(k);
       const T& of_joint = a[6 + j];
       const T K = T(h) * slope[k];
-      const T turning = (motors.torque[j] + torque[k] + K * of_joint) / (inertia_[k] + T(h) * motors.slope[j] + K);
+      const T turning = (motors.torque[j] + torque[k] + K * of_joint) / (without_flanks(k, motors, h) + K);
       const auto sticks = motors.any_jump ? motors.sticks[j] : math::Mask<T>{};
       a[6 + joints_ + k] = math::select(sticks, locks.acceleration[j], turning);
       next[k] = torque[k] - K * (a[6 + joints_ + k] - of_joint);
@@ -145,6 +145,10 @@ class Plays {
   std::vector<T> now, next;      ///< torques of the flanks on the motors in the iterate and in the last solve, N m
 
  private:
+  /// Inertia and resistance of a motor without its flanks. The slope of a motor that stuck in the last step is infinite.
+  [[nodiscard]] T without_flanks(std::size_t k, const StepMotors<T>& motors, double h) const {
+    return h > 0 ? inertia_[k] + T(h) * motors.slope[joint(k)] : inertia_[k];
+  }
   struct Flank {
     T torque, slope;
   };

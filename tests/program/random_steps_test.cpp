@@ -45,7 +45,7 @@ Rollout start(const Scenario& s, const char* integrator) {
   settings.actuator = r.actuator.get();
   settings.integrator = integrator;
   r.plant = s.physics.engine->make(settings);
-  const StateLayout layout{s.robot->joints.size(), 1};
+  const StateLayout layout{s.robot->joints.size(), 1, joints_with_play(*s.robot).size()};
   r.state.resize(layout.size());
   layout.write(start_state(s), 0, r.state);
   r.history.resize(r.plant->history());
@@ -146,6 +146,45 @@ TEST(RandomSteps, EndOnTheLawOfEveryMotor) {
   }
   EXPECT_GT(limited, 1000);
   EXPECT_GT(changed, 1000);
+}
+
+/// A motor in its play that breaks away at rest leaves the torques of the others as they are. Both motors stick in the step.
+TEST(GearsAtRest, BreakAwayBesideOthers) {
+  const Scenario s = scenario(R"(
+gaitlab: 1
+robot:
+  base: fixed
+  position: [0, 0, 2]
+  modules:
+    gaitlab_module: 1
+    name: arm
+    bodies:
+      support: {mass: 1, inertia: [1, 1, 1, 0, 0, 0]}
+      upper: {mass: 1, com: [0, 0, -0.5], inertia: [0.1, 0.1, 1e-3, 0, 0, 0]}
+      lower: {mass: 1, com: [0, 0, -0.5], inertia: [0.1, 0.1, 1e-3, 0, 0, 0]}
+    hinges:
+      - {name: hip, parent: support, child: upper, axis: [0, 1, 0], range: free, play: 0.02}
+      - {name: knee, parent: upper, child: lower, origin: [0, 0, -1], axis: [0, 1, 0], range: free, play: 0.02}
+ground: {type: none}
+contact: {on: none}
+initial: {angles: 0.3}
+actuator: {type: servo, voltage: 6, stall_torque: 60, no_load_speed: 6, load_friction: 0, dry_friction: 20, viscous_friction: 0, rotor_inertia: 0.04}
+physics: {engine: articulated}
+duration: 1
+)");
+  Rollout r = start(s, "adaptive");
+  const std::vector<double> rest(2, 0.0);
+  for (int i = 0; i < 400; ++i) r.plant->advance(rest, 0.005);
+  const auto at_rest = [&](const std::vector<double>& volts) {
+    std::vector<double> torque(2, 0.0);
+    EXPECT_TRUE(r.plant->add_friction(volts, 0, torque));
+    return torque;
+  };
+  const std::vector<double> held = at_rest(rest);
+  const std::vector<double> pushed = at_rest({6, 0});
+  for (const double torque : held) EXPECT_LT(std::abs(torque), 20);
+  EXPECT_NEAR(pushed[0], 60 - 20, 1e-12) << "the whole torque of the motor less its friction";
+  EXPECT_EQ(pushed[1], held[1]);
 }
 
 }  // namespace

@@ -41,7 +41,7 @@ run program app interchange program report
   jq -rs '
     [["closed", "Closed forms and textbook systems"], ["cpg", "Pattern generators"], ["published", "Published numbers"], ["order", "Order of the integrators"],
      ["property", "Laws of mechanics and symmetries"], ["format", "Other programs"], ["ledger", "Energy"],
-     ["limits", "Motors at their limits"]] as $subjects
+     ["limits", "Motors at their limits"], ["play", "Gears with play"]] as $subjects
     | (group_by(.id) | map(max_by(.share) + {count: length})) as $rows
     | (($rows | map(.id | split(".")[0]) | unique) - ($subjects | map(.[0]))) as $unknown
     | if $unknown != [] then error("unknown subjects: \($unknown)") else . end
