@@ -19,6 +19,7 @@
 #include "core/scenario/built_robot.h"
 #include "core/settings/settings_numbers.h"
 #include "core/settings/wording.h"
+#include "identify/log_check.h"
 
 namespace gaitlab::identify {
 
@@ -47,7 +48,7 @@ void find_text(const Node& node, const std::string& text, const std::string& pat
 
 /// The logs of a table, or nothing if the file is a log.
 std::vector<Entry> entries_of(const std::string& file) {
-  const std::string text = read_file(file, kMostScenario);
+  const std::string text = read_file(file, kMostJson);
   std::vector<Entry> entries;
   try {
     const CsvTable table(text);
@@ -133,95 +134,6 @@ std::optional<double> freed_efficiency(const Scenario& scenario) {
   return std::round(kDigits * dc[scenario.measured.log->joints[0].joint].efficiency) / kDigits;
 }
 
-/// Faults of the numbers of a log, by the motor that it should be of.
-class LogCheck {
- public:
-  LogCheck(const BenchLog& log, Problems& problems) : log_(log), numbers_(*log.scenario.measured.log), problems_(problems) {
-    const double row = numbers_.t.back() / static_cast<double>(numbers_.t.size() - 1);
-    if (row > kSlow) {
-      problems_.add({log_.file}, fmt::format("the rows are {:.3g} s apart; expected times in s, with a row at least every {} s",
-                                             row, kSlow));
-      return;
-    }
-    const std::unique_ptr<Actuator> motors = make_motors(log.scenario);
-    const DcMotor* const dc = motors == nullptr ? nullptr : motors->dc_motors();
-    for (const MeasuredLog::OfJoint& joint : numbers_.joints) {
-      if (dc != nullptr) motor_ = &dc[joint.joint];
-      name_ = log.scenario.robot->joints[joint.joint].name;
-      if (const auto& angle = joint.of(Logged::angle); !angle.empty()) check_angle(angle);
-      if (const auto& current = joint.of(Logged::current); !current.empty() && dc != nullptr) check_current(current);
-      if (const auto& duty = joint.of(Logged::duty); !duty.empty()) check_duty(duty);
-    }
-  }
-
- private:
-  static double largest(const std::vector<double>& values) {
-    return std::abs(*std::ranges::max_element(values, {}, [](double one) { return std::abs(one); }));
-  }
-  template <class... Parts>
-  void add(fmt::format_string<Parts...> text, Parts&&... parts) {
-    problems_.add({log_.file}, fmt::format("joint {}: ", name_) + fmt::format(text, std::forward<Parts>(parts)...));
-  }
-
-  void check_angle(const std::vector<double>& angle) {
-    const auto [low, high] = std::ranges::minmax_element(angle);
-    const double span = *high - *low;
-    if (span < kStill) return add("the angle spans {:.3g} rad; expected a motion of at least {:.3g} rad", span, kStill);
-    const bool whole = std::ranges::all_of(angle, [](double one) { return one == std::round(one); });
-    if (span > kTurns && whole) {
-      return add(
-          "the angles are whole numbers from {:.6g} to {:.6g}, which look like ticks; expected rad, with the ticks per rad "
-          "as scale, such as 651.9 for 4096 per turn",
-          *low, *high);
-    }
-    if (span > kTurns)
-      return add("the angles span {:.4g}, which look like degrees; expected rad, with 57.29578 as scale", span);
-    check_jumps(angle);
-  }
-
-  void check_jumps(const std::vector<double>& angle) {
-    if (motor_ == nullptr || !(motor_->Ks > 0)) return;
-    const double fastest = kTooFast * motor_->u_max / (motor_->Ks * motor_->gear);
-    std::vector<double> apart;
-    for (std::size_t k = 1; k < angle.size(); ++k) apart.push_back(numbers_.t[k] - numbers_.t[k - 1]);
-    std::vector<double> sorted = apart;
-    std::ranges::nth_element(sorted, sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2));
-    const double usual = sorted[sorted.size() / 2];
-    std::vector<std::string> rows;
-    for (std::size_t k = 1; k < angle.size(); ++k) {
-      if (std::abs(angle[k] - angle[k - 1]) > fastest * std::max(apart[k - 1], usual)) rows.push_back(std::to_string(k + 1));
-    }
-    if (!rows.empty()) {
-      add("the angle jumps faster than {:.3g} rad/s, {:.0f} times the speed of the motor, at row{} {}; remove these rows",
-          fastest, kTooFast, rows.size() == 1 ? "" : "s", joined(rows));
-    }
-  }
-
-  void check_current(const std::vector<double>& current) {
-    if (const double most = largest(current); most > kTooMuch * motor_->u_max / motor_->R) {
-      add("the current reaches {:.4g} A, {:.0f} times that of the stalled motor; expected A: mA have 1000 as scale", most,
-          most / (motor_->u_max / motor_->R));
-    }
-  }
-
-  void check_duty(const std::vector<double>& duty) {
-    if (const double most = largest(duty); most > kWhole)
-      add("the duty reaches {:.4g}; expected at most 1, with the number of full duty as scale, such as 885 or 100", most);
-  }
-
-  static constexpr double kSlow = 0.2;    // s; chosen: a servo moves within some 0.1 s
-  static constexpr double kStill = 0.02;  // rad, some ticks of 12 bits; chosen
-  static constexpr double kTurns = 50;    // rad, 8 turns; chosen: no hinge of a robot's gait turns further
-  static constexpr double kTooFast = 4;   // the number
-  static constexpr double kTooMuch = 50;  // of the stall current; chosen between a wrong data sheet and mA
-  static constexpr double kWhole = 1.05;  // chosen: rounding of a PWM
-  const BenchLog& log_;
-  const MeasuredLog& numbers_;
-  Problems& problems_;
-  const DcMotor* motor_ = nullptr;
-  std::string name_;
-};
-
 }  // namespace
 
 bool BenchLog::has_duty() const {
@@ -231,7 +143,7 @@ bool BenchLog::has_duty() const {
 }
 
 std::vector<BenchLog> read_bench(const std::string& file, const std::vector<std::string>& sets,
-                                 const std::vector<std::string>& logs, Catalog& catalog) {
+                                 const std::vector<std::string>& logs, Catalog& catalog, bool drop_spikes) {
   const std::vector<std::string> of_log = keys_of_log(read_yaml(file));
   std::vector<Entry> entries;
   for (const std::string& log : logs) std::ranges::move(entries_of(log), std::back_inserter(entries));
@@ -246,10 +158,22 @@ std::vector<BenchLog> read_bench(const std::string& file, const std::vector<std:
     log.sets = sets;
     std::ranges::copy(entry.sets, std::back_inserter(log.sets));
     log.of_table = std::move(entry.sets);
-    for (const std::string& key : of_log) log.sets.push_back(key + "=" + quoted(absolute(entry.file)));
+    const auto replays = [&](const std::string& path_or_text) {
+      std::vector<std::string> all = log.sets;
+      for (const std::string& key : of_log) all.push_back(key + "=" + quoted(path_or_text));
+      return all;
+    };
     try {
-      log.hash = hash128(read_file(entry.file, kMostScenario));
-      const Scenario as_stated = read_scenario(file, log.sets, catalog);
+      const std::string text = read_file(entry.file, kMostJson);
+      log.hash = hash128(text);
+      std::vector<std::string> with_log = replays(absolute(entry.file));
+      Scenario as_stated = read_scenario(file, with_log, catalog);
+      if (const Jumps jumps = drop_spikes ? jumps_of(as_stated) : Jumps{}; !jumps.spikes.empty()) {
+        log.left_out = jumps.spikes;
+        with_log = replays(without_rows(text, jumps.spikes));
+        as_stated = read_scenario(file, with_log, catalog);
+      }
+      log.sets = std::move(with_log);
       std::ranges::move(start_of(as_stated), std::back_inserter(log.sets));
       log.efficiency = freed_efficiency(as_stated);
       if (log.efficiency) {
@@ -268,17 +192,6 @@ std::vector<BenchLog> read_bench(const std::string& file, const std::vector<std:
   }
   problems.raise();
   return made;
-}
-
-void check_logs(const std::vector<BenchLog>& logs) {
-  Problems problems;
-  std::map<std::string, std::string> known;  // names of the logs by hash
-  for (const BenchLog& log : logs) {
-    const auto [at, is_new] = known.try_emplace(log.hash, log.file);
-    if (!is_new) problems.add({log.file}, "has the rows of " + at->second + "; name each log once");
-    LogCheck(log, problems);
-  }
-  problems.raise();
 }
 
 void check_fit(const std::vector<BenchLog>& logs, Logged kind, const std::vector<Key>& keys) {

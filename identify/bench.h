@@ -21,6 +21,7 @@ struct BenchLog {
   std::vector<std::string> sets;      ///< settings of this log, in the form of --set
   std::optional<double> efficiency;   ///< stated in the place of the bench's stall current
   std::vector<std::string> of_table;  ///< those of its row in a table
+  std::vector<std::size_t> left_out;  ///< rows that are spikes, from 0
   Scenario scenario;                  ///< with the bench's values of all keys
   std::unique_ptr<ScenarioTemplate> with;
   /// True if a joint has a duty, and a motor in volts, which is compared with it.
@@ -31,14 +32,10 @@ struct BenchLog {
 /// names groups, and every other column is a setting with a value per log. Without it, logs with equal settings are a group, or
 /// each log without settings. Wherever the bench names the file of its section `measured`, the run of a log has that log; it
 /// begins at the angles and speeds of the log's first row, and lasts as long as the log. A stall current, which bounds the
-/// product of torque and speed, is replaced by its efficiency if the logs have no currents. Throws InputError with the problems
-/// of all logs.
+/// product of torque and speed, is replaced by its efficiency if the logs have no currents. With `drop_spikes`, rows that are
+/// spikes (Jumps) are left out. Throws InputError with the problems of all logs.
 std::vector<BenchLog> read_bench(const std::string& file, const std::vector<std::string>& sets,
-                                 const std::vector<std::string>& logs, Catalog& catalog);
-
-/// Throws InputError for a log that no servo can have recorded: an angle that does not move, that looks like degrees or ticks,
-/// or that jumps faster than 4 times the speed of the motor; a duty above 1; currents in mA; times in ms; rows of another log.
-void check_logs(const std::vector<BenchLog>& logs);
+                                 const std::vector<std::string>& logs, Catalog& catalog, bool drop_spikes = false);
 
 /// Throws InputError if a log lacks the quantity, if it reverses less often in all fitted logs than there are keys, or if a
 /// table of logs states a key.

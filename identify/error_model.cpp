@@ -143,9 +143,9 @@ std::vector<Compared> ErrorModels::compared(const Point& point) {
           made.largest_torque = std::max(made.largest_torque, one.recording.joints[joint.joint].torque_peak);
           MeasuredLog::OfJoint& curves = made.simulated.emplace_back(MeasuredLog::OfJoint{joint.joint, {}});
           for (const LoggedKind& kind : logged_kinds()) {
-            if (!joint.of(kind.kind).empty())
-              curves.values[static_cast<std::size_t>(kind.kind)] =
-                  report::at_log(one.rollout.scenario, one.recording, joint.joint, kind.kind);
+            if (joint.of(kind.kind).empty()) continue;
+            curves.values[static_cast<std::size_t>(kind.kind)] =
+                report::at_log(one.rollout.scenario, one.recording, joint.joint, kind.kind);
           }
         }
       });

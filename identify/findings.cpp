@@ -9,6 +9,7 @@
 #include "core/scenario/built_robot.h"
 #include "core/settings/settings_numbers.h"
 #include "core/settings/wording.h"
+#include "identify/log_check.h"
 
 namespace gaitlab::identify {
 
@@ -164,6 +165,9 @@ class Findings {
   }
 
   void add_logs() {
+    for (const BenchLog& log : logs_) {
+      if (!log.left_out.empty()) add("log {}: {} left out as spikes", log.name, row_list(log.left_out));
+    }
     std::vector<double> errors;
     for (const Compared& run : made_.after) errors.push_back(error_of(run, made_.kinds[0]));
     std::vector<double> sorted = errors;

@@ -30,7 +30,10 @@ body { overflow-wrap: anywhere; }
 h2 { font-size: 16px; margin: 24px 0 8px; }
 th, td { padding: 7px 10px; overflow-wrap: normal; }
 th { white-space: normal; }
-@media (max-width: 600px) { body { padding: 12px; } th, td { padding: 6px 5px; font-size: 13px; } td { white-space: normal; } }
+@media (max-width: 600px) {
+  body { padding: 12px; } th, td { padding: 6px 3px; font-size: 12px; } td { white-space: normal; }
+  th:first-child, td:first-child { padding-left: 10px; } th:last-child, td:last-child { padding-right: 10px; }
+}
 ul { margin: 0; padding-left: 20px; max-width: 110ch; }
 li { margin: 0 0 4px; }
 details { margin: 16px 0 0; }

@@ -18,6 +18,7 @@ namespace gaitlab::identify {
 
 namespace {
 
+constexpr const char* kOfBench = "value of the bench; it does not follow from these logs";
 constexpr const char* kOfTheRobot[] = {"u_max", "period"};  // supply, and clock of the controller
 
 void remove(Node& map, const std::string& key) {
@@ -76,8 +77,16 @@ std::string identified_text(Identification identified) {
   return fmt::format("{}:\n{}", kIdentified, print_yaml(map, 2));
 }
 
-/// Actuator and controller of the bench, with the keys of the servo file that they name, without keys of the robot.
-Node motors_of(const std::string& file, const std::vector<std::string>& sets) {
+/// Actuator or controller of the bench.
+struct Section {
+  std::string name;
+  Node map;                        ///< with the keys of the servo file that it names, without keys of the robot
+  std::optional<ServoFile> servo;  ///< the file
+  std::vector<std::string> own;    ///< keys that the bench states itself
+  std::string source;              ///< that of these keys; "" for none
+};
+
+std::vector<Section> sections_of(const std::string& file, const std::vector<std::string>& sets) {
   const Node bench = read_yaml(file);
   Node motors{Node::Kind::map};
   for (const char* name : {"actuator", "controller"}) {
@@ -94,33 +103,77 @@ Node motors_of(const std::string& file, const std::vector<std::string>& sets) {
     if (set.starts_with("actuator.") || set.starts_with("controller.")) of_motors.push_back(set);
   }
   apply_sets(motors, of_motors, problems);
-  insert_servos(motors, std::filesystem::path(file).parent_path().string(), problems, notes);
+  const std::string folder = std::filesystem::path(file).parent_path().string();
+  std::vector<Section> sections;
+  for (std::size_t i = 0; i < motors.items.size(); ++i) {
+    const Node& map = motors.items[i];
+    Section& made = sections.emplace_back(Section{motors.keys[i].first, {}, named_servo(map, folder, problems), {}, {}});
+    for (const auto& key : map.keys) made.own.push_back(key.first);
+    if (const Node* const source = map.find("source")) made.source = source->text;
+  }
+  insert_servos(motors, folder, problems, notes);
   problems.raise();
-  return motors;
+  for (std::size_t i = 0; i < sections.size(); ++i) {
+    sections[i].map = std::move(motors.items[i]);
+    remove(sections[i].map, "source");
+    remove(sections[i].map, kIdentified);
+    sections[i].map.flow = false;
+  }
+  return sections;
 }
 
-/// The keys of a section of the servo file by their source: fitted, of the data sheet, and values of the bench.
-struct Keys {
-  std::vector<std::string> fitted, stated, kept;
+/// The numbers of the servo file by their sources.
+class Sources {
+ public:
+  void add(const std::string& key, ServoFigure kind, const std::string& text) {
+    const auto same = [&](const ServoSource& one) { return one.kind == kind && one.text == text; };
+    const auto at = std::ranges::find_if(all_, same);
+    (at == all_.end() ? all_.emplace_back(ServoSource{{}, kind, text}) : *at).of.push_back(key);
+  }
+  /// Adds a key of the bench with its value in the bench.
+  void add_stated(const std::string& key, const Section& section) {
+    if (std::ranges::find(section.own, key) != section.own.end() || !section.servo) {
+      const bool sourced = !section.source.empty();
+      add(key, sourced ? ServoFigure::data_sheet : ServoFigure::chosen, sourced ? section.source : "stated in the bench");
+    } else if (const ServoSource* const source = section.servo->source_of(key)) {
+      add(key, source->kind, source->text);
+    } else {
+      add(key, section.servo->identified.any() ? ServoFigure::identified : ServoFigure::data_sheet, section.servo->source);
+    }
+  }
+  [[nodiscard]] std::string text() const {
+    std::string text;
+    for (const ServoSource& one : all_)
+      text += fmt::format("  - {{of: [{}], kind: {}, text: {}}}\n", fmt::join(one.of, ", "), name_of(one.kind),
+                          yaml_text(one.text));
+    return text;
+  }
+
+ private:
+  std::vector<ServoSource> all_;
 };
 
-/// Puts the values into the map of a section, and sorts its keys.
-void take_values(Node& map, const std::string& section, const Identified& made, const std::vector<Key>& keys, Keys& sources) {
-  for (const auto& key : map.keys) {
-    if (key.first != "type" && key.first != "source") sources.stated.push_back(key.first);
-  }
+/// Puts the values into the map of a section.
+void take_values(Section& section, const Identified& made, const std::vector<Key>& keys, const std::string& of_fitted,
+                 Sources& sources) {
+  std::vector<std::string> kept, taken;
   for (const IdentifiedKey& one : made.keys) {
     const std::string& name = keys[one.key].name;
-    if (!name.starts_with(section + ".")) continue;
-    const std::string key = name.substr(section.size() + 1);
-    const bool stated = map.find(key) != nullptr;
-    if (!one.fitted && stated) continue;
-    if (stated) {
-      remove(map, key);
-      std::erase(sources.stated, key);
+    if (!name.starts_with(section.name + ".")) continue;
+    const std::string key = name.substr(section.name.size() + 1);
+    if (!one.fitted && section.map.find(key) != nullptr) continue;
+    remove(section.map, key);
+    put(section.map, key, one.value);
+    taken.push_back(key);
+    if (one.fitted) {
+      sources.add(key, ServoFigure::identified, of_fitted);
+    } else {
+      kept.push_back(key);
     }
-    put(map, key, one.value);
-    (one.fitted ? sources.fitted : sources.kept).push_back(key);
+  }
+  for (const std::string& key : kept) sources.add(key, ServoFigure::chosen, kOfBench);
+  for (const auto& key : section.map.keys) {
+    if (key.first != "type" && std::ranges::find(taken, key.first) == taken.end()) sources.add_stated(key.first, section);
   }
 }
 
@@ -169,38 +222,24 @@ bool holds_in_servo_file(const Key& key) {
 
 std::string servo_text(const std::string& name, const std::string& file, const std::vector<std::string>& sets,
                        const Identified& made, const std::vector<BenchLog>& logs, const std::vector<Key>& keys) {
-  Node motors = motors_of(file, sets);
-  std::string text = fmt::format(
-      "# Servo whose numbers follow from logs: gaitlab identify.\ngaitlab_servo: 1\nname: {}\nsources:\n", yaml_text(name));
-  std::string maps;
-  std::optional<std::string> of_stated;
-  Keys sources;
-  for (std::size_t i = 0; i < motors.items.size(); ++i) {
-    const std::string& section = motors.keys[i].first;
-    Node& map = motors.items[i];
-    const Node* const type = map.find("type");
-    if (section == "controller" && (type == nullptr || type->text != "rc_servo")) continue;  // not the servo's own
-    if (const Node* const source = map.find("source")) of_stated = source->text;
-    remove(map, "source");
-    remove(map, kIdentified);
-    take_values(map, section, made, keys, sources);
-    if (section == "actuator" && logs[0].efficiency) {
-      remove(map, "stall_current");
-      std::erase(sources.stated, "stall_current");
-      put(map, "efficiency", *logs[0].efficiency);
-      sources.kept.emplace_back("efficiency");
-    }
-    map.flow = false;
-    maps += section + ":\n" + print_yaml(map, 2);
-  }
-  const auto add = [&](const std::vector<std::string>& of, const char* kind, const std::string& why) {
-    if (!of.empty()) text += fmt::format("  - {{of: [{}], kind: {}, text: {}}}\n", fmt::join(of, ", "), kind, yaml_text(why));
-  };
   const Identification identified = identification(made, logs);
-  add(sources.fitted, "identified", long_text(identified));
-  add(sources.kept, "chosen", "value of the bench; it does not follow from these logs");
-  add(sources.stated, of_stated ? "data sheet" : "chosen", of_stated.value_or("stated in the bench"));
-  return text + identified_text(identified) + maps;
+  Sources sources;
+  std::string maps;
+  for (Section& section : sections_of(file, sets)) {
+    const Node* const type = section.map.find("type");
+    const bool firmware = section.name == "controller";
+    if (firmware && (type == nullptr || type->text != "rc_servo")) continue;  // not the servo's own
+    const std::optional<double> efficiency = firmware ? std::nullopt : logs[0].efficiency;
+    if (efficiency) remove(section.map, "stall_current");
+    take_values(section, made, keys, long_text(identified), sources);
+    if (efficiency) {
+      put(section.map, "efficiency", *efficiency);
+      sources.add("efficiency", ServoFigure::chosen, kOfBench);
+    }
+    maps += section.name + ":\n" + print_yaml(section.map, 2);
+  }
+  return fmt::format("# Servo whose numbers follow from logs: gaitlab identify.\ngaitlab_servo: 1\nname: {}\nsources:\n{}{}{}",
+                     yaml_text(name), sources.text(), identified_text(identified), maps);
 }
 
 }  // namespace gaitlab::identify

@@ -52,7 +52,7 @@ StoredTrace& OpenedRun::trace() {
 StoredScenario OpenedRun::scenario() {
   const fs::path yaml = fs::path(run_) / "scenario.resolved.yaml";
   std::error_code none;
-  if (fs::exists(yaml, none)) return {yaml.string(), read_file(yaml, kMostScenario), true};
+  if (fs::exists(yaml, none)) return {yaml.string(), read_file(yaml, kMostJson), true};
   const fs::path file = trace_file(run_);
   if (file.extension() == ".h5") return {file.string() + " (its scenario)", trace().origin.scenario};
   throw InputError(SourceLocation{file.string()},

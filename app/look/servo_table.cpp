@@ -139,7 +139,7 @@ std::string servo_table(const std::string& path, const std::string& about, const
 }
 
 std::string servo_row(const std::string& path, const std::string& head) {
-  constexpr const char* kExpected = "data sheet with usual losses; the errors of three such servos are 42, 65 and 81 mrad";
+  constexpr const char* kExpected = "data sheet with usual losses; the errors of three such servos are 43, 65 and 81 mrad";
   Problems problems;
   const std::optional<ServoFile> servo = read_servo(path, {path}, problems);
   if (!servo) throw InputError(problems.list());

@@ -14,6 +14,7 @@
 #include "core/settings/wording.h"
 #include "core/simulation/batch_limits.h"
 #include "identify/findings.h"
+#include "identify/log_check.h"
 #include "identify/page.h"
 #include "identify/servo_text.h"
 #include "identify/tables.h"
@@ -37,6 +38,7 @@ struct IdentifyArguments {
   std::string to, page;
   std::int64_t seed = 1;
   int jobs = 1;
+  bool drop_spikes = false;
   bool quiet = false;
 };
 
@@ -75,7 +77,7 @@ int identify_servo(const IdentifyArguments& a) {
   if (!a.to.empty() && !a.page.empty() && place(a.to) == place(a.page))
     throw InputError(SourceLocation{"--page"}, "is the file of --to; expected another one");
   Catalog catalog = standard_catalog();
-  std::vector<BenchLog> logs = identify::read_bench(a.file, a.sets, a.logs, catalog);
+  std::vector<BenchLog> logs = identify::read_bench(a.file, a.sets, a.logs, catalog, a.drop_spikes);
   identify::check_logs(logs);
   identify::hold_out(logs, a.held_out, a.share, a.seed);
   const std::vector<Key> keys = identify::fitted_keys(logs[0].scenario, a.fit);
@@ -154,6 +156,8 @@ void add_identify(Commands& commands) {
                         "compared quantity, once per quantity (default angle, and duty if all logs have it)")
             ->check(CLI::IsMember(names_of_quantities()))
             ->allow_extra_args(false);
+        command.add_flag("--drop-spikes", a.drop_spikes,
+                         "leave out rows whose angle jumps to and fro faster than 4 times the speed of the motor");
         command.add_option("--to", a.to, "write the servo to this new file");
         command
             .add_option("--page", a.page, "page (HTML) to write, with tables, limits and a figure of every log; must not exist")

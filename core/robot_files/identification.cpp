@@ -38,8 +38,7 @@ std::string error_text(double error, Identification::Quantity quantity) {
 }
 
 std::string short_text(const Identification& of) {
-  std::string error =
-      of.held_out_logs > 0 && of.held_out > 0 ? "held-out MAE " + error_text(of.held_out, of.quantity) : "none held out";
+  std::string error = of.held_out_logs > 0 ? "held-out MAE " + error_text(of.held_out, of.quantity) : "none held out";
   if (of.held_out_before > 0 && of.held_out > of.held_out_before)
     error += ", worse than " + error_text(of.held_out_before, of.quantity) + " before the fit";
   return fmt::format("identified from {} ({})", counted(static_cast<std::size_t>(of.logs), "log"), error);
@@ -49,7 +48,7 @@ std::string long_text(const Identification& of) {
   std::string text = fmt::format("identified from {}", counted(static_cast<std::size_t>(of.logs), "log"));
   if (!of.by.empty()) text += " of " + of.by;
   if (of.error > 0) text += ", fitted to " + error_text(of.error, of.quantity);
-  if (of.held_out_logs > 0 && of.held_out > 0) {
+  if (of.held_out_logs > 0) {
     text += fmt::format(", held-out error {} on {}", error_text(of.held_out, of.quantity),
                         counted(static_cast<std::size_t>(of.held_out_logs), "log"));
     if (of.held_out_before > 0) text += fmt::format(" ({} before the fit)", error_text(of.held_out_before, of.quantity));

@@ -29,11 +29,12 @@ struct Search {
   const std::string& folder;  ///< of the document
   Problems& problems;
   std::vector<Problem>& notes;
+  const Node* controller = nullptr;  ///< the map that the document states
 };
 
 /// Path of the file that `name` means; adds a problem and returns "" if there is none.
 std::string path_of(const Node& name, const Search& search) {
-  const auto& [folder, problems, notes] = search;
+  const auto& [folder, problems, notes, controller] = search;
   const std::string& text = name.text;
   if (text.find('/') != std::string::npos || text.ends_with(".yaml")) return path_from(folder, text);
   if (const auto file =
@@ -140,13 +141,21 @@ std::string source_of(const std::vector<std::string>& own, const Node* stated, c
                            : fmt::format("chosen: {}; the rest: {}", keys, of_file);
 }
 
-/// Keys of a servo file that only move currents: another value leaves the motion of the logs as it is.
-constexpr std::array kOfCurrents{"efficiency", "stall_current"};
-
 /// True if a stated key takes the place of one that moves the joint.
 bool changes_motion(const Node& stated_by, const Node& of_file) {
   return std::ranges::any_of(of_file.keys, [&](const auto& key) {
-    return key.first != "type" && std::ranges::count(kOfCurrents, key.first) == 0 && stated(stated_by, key.first);
+    return key.first != "type" && moves_joint(key.first, true) && stated(stated_by, key.first);
+  });
+}
+
+/// True if the controller states another value for a key that the servo has from logs.
+bool changes_controller(const Node* controller, const ServoFile& servo) {
+  if (controller == nullptr) return false;
+  return std::ranges::any_of(servo.controller.keys, [&](const auto& key) {
+    const ServoSource* const source = servo.source_of(key.first);
+    const Node* const own = controller->find(key.first);
+    return source != nullptr && source->kind == ServoFigure::identified && own != nullptr &&
+           own->text != servo.controller.find(key.first)->text;
   });
 }
 
@@ -161,20 +170,15 @@ void remove(Node& map, const Node* value) {
   map.items.erase(map.items.begin() + at);
 }
 
-/// `of_hinge`: the map is that of a hinge, whose type is that of the module.
-void insert(Node& map, const std::string& section, bool of_hinge, const Search& search) {
-  const auto& [folder, problems, notes] = search;
-  const Node* const model = map.find(kServoModel);
-  if (model == nullptr) return;
-  const Node name = *model;
-  auto at = static_cast<std::size_t>(model - map.items.data());
-  remove(map, model);
+/// The servo of that name, or nothing after a problem.
+std::optional<ServoFile> named(const Node& name, const Search& search) {
+  const auto& [folder, problems, notes, controller] = search;
   if (name.kind != Node::Kind::scalar) {
     problems.add(name.place, fmt::format("model is {}; expected the name of a servo (gaitlab list servo)", found(name)));
-    return;
+    return {};
   }
   const std::string path = path_of(name, search);
-  if (path.empty()) return;
+  if (path.empty()) return {};
   Problems found_in_file;
   std::optional<ServoFile> servo;
   try {
@@ -183,6 +187,18 @@ void insert(Node& map, const std::string& section, bool of_hinge, const Search& 
     add_all(error, found_in_file);
   }
   add_found(found_in_file, {path, folder, "servo file", "gaitlab_servo"}, problems);
+  return servo;
+}
+
+/// `of_hinge`: the map is that of a hinge, whose type is that of the module.
+void insert(Node& map, const std::string& section, bool of_hinge, const Search& search) {
+  Problems& problems = search.problems;
+  const Node* const model = map.find(kServoModel);
+  if (model == nullptr) return;
+  const Node name = *model;
+  auto at = static_cast<std::size_t>(model - map.items.data());
+  remove(map, model);
+  const std::optional<ServoFile> servo = named(name, search);
   if (!servo) return;
   const Node& keys = section == kServoSections[0] ? servo->actuator : servo->controller;
   if (keys.kind == Node::Kind::null) {
@@ -214,7 +230,8 @@ void insert(Node& map, const std::string& section, bool of_hinge, const Search& 
   text.quoted = true;
   if (source != nullptr) remove(map, source);
   put(map, map.items.size(), "source", std::move(text));
-  if (servo->identified.any() && map.find(kIdentified) == nullptr && !changes_motion(before, keys)) {
+  if (servo->identified.any() && map.find(kIdentified) == nullptr && !changes_motion(before, keys) &&
+      !changes_controller(search.controller, *servo)) {
     put(map, map.items.size(), kIdentified, servo->logs);
   }
 }
@@ -253,8 +270,7 @@ std::optional<ServoFile> read_servo(const std::string& path, const SourceLocatio
   } else if (const Node* const source = file.find("source")) {
     problems.add(source->place, "source and sources are both stated; expected one of them");
   }
-  if (const Node* const logs = file.find(kIdentified); logs != nullptr && !servo.identified.any())
-    problems.add(logs->place, "identified has no logs; expected their number, as in {logs: 8}");
+  if (const Node* const logs = file.find(kIdentified)) check_identified(*logs, servo.identified, problems);
   for (const char* const one : kServoSections) reader.take(one);
   reader.finish();
   if (problems.size() > before) return {};
@@ -268,8 +284,29 @@ std::optional<ServoFile> read_servo(const std::string& path, const SourceLocatio
   return servo;
 }
 
+void check_identified(const Node& stated, const Identification& identified, Problems& problems) {
+  if (!identified.any()) problems.add(stated.place, "identified has no logs; expected their number, as in {logs: 8}");
+  const Node* const count = stated.find("held_out_logs");
+  const Node* const error = stated.find("held_out");
+  if (identified.held_out_logs > 0 && error == nullptr)
+    problems.add(count->place, "held_out_logs has no held_out; expected the error of these logs, as in {held_out: 0.04}");
+  if (identified.held_out > 0 && identified.held_out_logs == 0)
+    problems.add(error->place, "held_out has no held_out_logs; expected their number, as in {held_out_logs: 8}");
+}
+
+bool moves_joint(const std::string& key, bool stated_with_logs) {
+  constexpr std::array kBeside{"u_max", "efficiency", "stall_current"};
+  return key == "i_max" ? stated_with_logs : std::ranges::find(kBeside, key) == kBeside.end();
+}
+
+std::optional<ServoFile> named_servo(const Node& map, const std::string& folder, Problems& problems) {
+  const Node* const model = map.find(kServoModel);
+  std::vector<Problem> notes;
+  return model == nullptr ? std::nullopt : named(*model, {folder, problems, notes});
+}
+
 void insert_servos(Node& document, const std::string& folder, Problems& problems, std::vector<Problem>& notes) {
-  const Search search{folder, problems, notes};
+  const Search search{folder, problems, notes, document.find(kServoSections[1])};
   insert_all(document, false, search);
   Node* const hinges = find(document, "hinges");
   if (hinges == nullptr) return;

@@ -46,9 +46,21 @@ struct ServoFile {
 /// InputError if it cannot be read.
 std::optional<ServoFile> read_servo(const std::string& path, const SourceLocation& asked_at, Problems& problems);
 
+/// Adds a problem for a section `identified` with a part of the numbers that belong together: without the number of logs, and
+/// with held_out_logs or held_out alone.
+void check_identified(const Node& stated, const Identification& identified, Problems& problems);
+
+/// False for a key of an actuator that leaves the motion of the logs as it is: the supply, numbers that only move currents, and
+/// a limit of the current that the numbers of the logs do not state.
+bool moves_joint(const std::string& key, bool stated_with_logs);
+
+/// The servo that the key `model` of a map names, as insert_servos() finds it; nothing without the key, or after a problem.
+std::optional<ServoFile> named_servo(const Node& map, const std::string& folder, Problems& problems);
+
 /// Replaces the key `model` of the maps `actuator` and `controller` in a module type, its hinges, or a scenario by the keys of
 /// the servo file of that name. A key that the map states itself remains, and `source` names the keys that came from the file.
-/// A map without such a key also gets the section `identified` of the file, except for keys that leave the motion as it is.
+/// An actuator without such a key also gets the section `identified` of the file, except for keys that leave the motion as it
+/// is, and unless the controller beside it states another value for a key that the file has from logs.
 /// The name is that of a file in the folder `servos` beside the document or with the data of the program, or a path from
 /// `folder`. Adds problems at the places of the names and in the servo files, and one of `notes` for each
 /// file that hides a shipped one.

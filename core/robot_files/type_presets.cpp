@@ -219,13 +219,15 @@ bool TypePresets::holds(const Entry& entry) const {
   return agreed() && entry.name == type_ && std::ranges::any_of(kinds_, says);
 }
 
-std::vector<std::string> TypePresets::sources(const Entry& entry, const std::vector<std::string>& but) const {
+std::vector<std::string> TypePresets::sources(const Entry& entry, const std::vector<std::string>& but,
+                                              bool unidentified) const {
   std::vector<std::string> sources;
   const auto add = [&](const std::string& source) {
     if (std::ranges::find(sources, source) == sources.end()) sources.push_back(source);
   };
   const std::vector<DefaultFigure> defaults = default_figures(entry);
   for (const Maps& maps : kinds_) {
+    if (unidentified && logs_of(maps) != nullptr) continue;
     std::vector<std::string> known = but;
     const auto takes = [&](const Node* map) {  // true if the map has numbers that are not in the list yet
       const std::size_t before = known.size();
@@ -236,7 +238,8 @@ std::vector<std::string> TypePresets::sources(const Entry& entry, const std::vec
     };
     const bool of_hinge = takes(maps.of_hinge);
     if (takes(maps.of_type)) add(source_of(maps.of_type));
-    if (of_hinge) add(source_of(source_of(maps.of_hinge).empty() ? maps.of_type : maps.of_hinge));
+    const bool of_logs = maps.of_type != nullptr && maps.of_type->find(kIdentified) != nullptr;
+    if (of_hinge) add(source_of(source_of(maps.of_hinge).empty() && !of_logs ? maps.of_type : maps.of_hinge));
     std::vector<std::string> assumed;
     for (const DefaultFigure& one : defaults) {
       if (one.value != 0 && std::ranges::find(known, one.key) == known.end()) assumed.push_back(one.key);
@@ -246,14 +249,19 @@ std::vector<std::string> TypePresets::sources(const Entry& entry, const std::vec
   return sources;
 }
 
+const Node* TypePresets::logs_of(const Maps& maps) {
+  const auto logs = [](const Node* map) { return map == nullptr ? nullptr : map->find(kIdentified); };
+  if (const Node* const of_hinge = logs(maps.of_hinge)) return of_hinge;
+  const Node* const of_type = logs(maps.of_type);
+  if (of_type == nullptr) return nullptr;
+  const auto replaces = [&](const std::string& key) { return moves_joint(key, maps.of_type->find(key) != nullptr); };
+  return std::ranges::any_of(figures_of(maps.of_hinge), replaces) ? nullptr : of_type;
+}
+
 Identification TypePresets::identification(std::size_t joint) const {
   Identification made;
   if (kinds_.empty()) return made;
-  const Maps& maps = kinds_[of_joint_.empty() ? 0 : of_joint_[joint]];
-  const Node* const of_hinge = maps.of_hinge == nullptr ? nullptr : maps.of_hinge->find(kIdentified);
-  if (of_hinge == nullptr && !figures_of(maps.of_hinge).empty()) return made;
-  const Node* const of_type = maps.of_type == nullptr ? nullptr : maps.of_type->find(kIdentified);
-  const Node* const stated = of_hinge != nullptr ? of_hinge : of_type;
+  const Node* const stated = logs_of(kinds_[of_joint_.empty() ? 0 : of_joint_[joint]]);
   if (stated == nullptr) return made;
   Problems none;  // read() reports those of its values
   Reader reader(*stated, kIdentified, none, nullptr);
@@ -274,6 +282,7 @@ void TypePresets::read(const Entry& entry, const Maps& maps, void* settings, Joi
     preset.take("source");
     Identification checked;
     preset.group(kIdentified, checked, "");
+    if (const Node* const logs = map.find(kIdentified)) check_identified(*logs, checked, problems);
     visit_settings(entry, settings, preset);
     preset.finish();
   };

@@ -55,10 +55,13 @@ class TypePresets {
   /// True if some joint gets presets when `entry` is the scenario's plugin.
   [[nodiscard]] bool holds(const Entry& entry) const;
   /// Sources of all presets except the keys `but`, each text once. A source is the value of `source` in a map that joints with
-  /// a motor use; a hinge's map without `source` uses the source of its type. Values that are defaults of the plugin count as a
-  /// source. An empty text means that some values have no source.
-  [[nodiscard]] std::vector<std::string> sources(const Entry& entry, const std::vector<std::string>& but) const;
-  /// Logs of the presets of a joint with a motor; none if a key of its hinge replaces a number of the type.
+  /// a motor use; a hinge's map without `source` uses the source of its type, unless this is a list of logs. Values that are
+  /// defaults of the plugin count as a source. An empty text means that some values have no source. With `unidentified`,
+  /// sources of the joints without logs alone.
+  [[nodiscard]] std::vector<std::string> sources(const Entry& entry, const std::vector<std::string>& but,
+                                                 bool unidentified = false) const;
+  /// Logs of the presets of a joint with a motor; none if a key of its hinge replaces a number of the type, except for limits
+  /// and numbers that only move currents.
   [[nodiscard]] Identification identification(std::size_t joint) const;
   /// Adds a problem at `place`, which states that the module types disagree, with notes at their settings.
   void refuse(const SourceLocation& place, Problems& problems) const;
@@ -73,6 +76,8 @@ class TypePresets {
     const Node* of_hinge = nullptr;
     bool operator==(const Maps&) const = default;
   };
+  /// Map of the logs of these maps, or nullptr.
+  static const Node* logs_of(const Maps& maps);
   void choose(const Robot& robot, const std::vector<Node>& documents);
   void read(const Entry& entry, const Maps& maps, void* settings, JointNames joints, Problems& of_type,
             Problems& of_hinge) const;

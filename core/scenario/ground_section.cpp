@@ -38,7 +38,7 @@ struct HeightfieldFields {
              "File with the heights: text, a row per line, numbers separated by commas or blanks; a matrix of numpy.save "
              "(.npy: float32, float64 or integers, in C order), also compressed (.npy.gz); a PNG of 16 bit grey values. Up to "
              "4096 x "
-             "4096; text, 1 MB. "
+             "4096; text, 4 MB. "
              "The first row has the least y.");
       f.number("scale", field.source.scale,
                {"m", 1e-12, 1e6, "Metres per unit of the numbers in `file`; a PNG needs it. Default: 1."});

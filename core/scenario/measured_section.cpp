@@ -209,7 +209,8 @@ void LoggedJoint::fields(Fields& f) {
 }
 
 void MeasuredSettings::fields(Fields& f) {
-  f.file("file", file, "The log: a CSV with a line of names, then a line per row, or JSON with a list `entries`; required.");
+  f.file("file", file,
+         "The log: a CSV with a line of names, then a line per row, or JSON with a list `entries`; at most 4 MB; required.");
   f.text("time", time, "Column of the times, s, which rise; the first is the start of the run.");
   if (!brief || !on.empty()) {
     Marked(f, Need::optional)

@@ -193,6 +193,9 @@ void ScenarioReader::read_sections() {
   reader.finish();
   if (touched_.all() && scenario_.robot) add_note(build_robot(scenario_, given(root_, kAsBuiltSection).has_value()));
   if (reads("actuator") && sections.actuator.sound) attempt([&] { tell_replaced_motors(motors); });
+  if (const Node* const motor = root_.find("actuator"); motor != nullptr && reads("actuator")) {
+    if (const Node* const logs = motor->find(kIdentified)) check_identified(*logs, scenario_.identified, problems_);
+  }
   if (const Node* ground = root_.find("ground"); ground != nullptr && reads("ground"))
     finish_ground(*ground, folder_, scenario_, problems_);
   if (const Node* log = root_.find(kMeasuredSection); log != nullptr && reads(kMeasuredSection))

@@ -131,6 +131,8 @@ class TreeBuilder final : public YAML::EventHandler {
   }
 
   void add(Node node) {
+    constexpr std::size_t kMost = std::size_t{1} << 19;  // as in 1 MB of the shortest values
+    if (++nodes_ > kMost) stop(std::move(node.place), fmt::format("more than {} values", kMost));
     if (stack_.empty()) {
       root_ = std::move(node);
     } else if (expects_key()) {
@@ -172,6 +174,7 @@ class TreeBuilder final : public YAML::EventHandler {
   std::vector<Open> stack_;
   Node root_;
   int documents_ = 0;
+  std::size_t nodes_ = 0;
 };
 
 std::string in_words(const YAML::Exception& e, const std::string& text) {
@@ -234,7 +237,7 @@ const Node* Node::find(const std::string& key) const {
 
 std::optional<Node> parse_yaml(const std::string& text, const std::string& file, Problems& problems) {
   try {
-    if (text.size() > kMostScenario) throw InputError({file}, "the text is larger than 1 MB");
+    if (text.size() > kMostJson) throw InputError({file}, "the text is larger than 16 MB");  // records contain logs
     check_text(text, file);
     // Removed, because yaml-cpp would count the byte order mark in its positions.
     return build(text.starts_with("\xEF\xBB\xBF") ? text.substr(3) : text, file, problems);

@@ -233,15 +233,16 @@ std::string drop_source(Node& root, const std::vector<std::string>& sets) {
   const auto figure = [](const std::string& set) {
     return set.starts_with("actuator.") && !set.starts_with("actuator.source=");
   };
+  const auto fitted = [](const std::string& set) { return set.starts_with("controller.latency"); };
   const auto other = std::ranges::find_if(sets, figure);
   const auto section = std::ranges::find(root.keys, "actuator", [](const auto& key) { return key.first; });
-  if (other == sets.end() || section == root.keys.end()) return "";
+  if (section == root.keys.end() || (other == sets.end() && std::ranges::none_of(sets, fitted))) return "";
   Node& actuator = root.items[static_cast<std::size_t>(section - root.keys.begin())];
   const auto stated = [](const std::string& name) {
     return [name](const std::string& key, const Node& value) { return key == name && !is_set(value); };
   };
   take_out(actuator, "", stated("identified"));  // not mentioned, because it is a part of the source
-  const std::string dropped = take_out(actuator, "", stated("source"));
+  const std::string dropped = other == sets.end() ? "" : take_out(actuator, "", stated("source"));
   return dropped.empty() ? "" : fmt::format("actuator: dropped source, which does not cover {}{}", kOption, clipped(*other));
 }
 

@@ -88,13 +88,14 @@ void add_found(const Problems& found, const NamedFile& file, Problems& problems)
 }
 
 std::string read_text(const std::string& path, const SourceLocation& asked_at) {
+  constexpr std::size_t kMost = std::size_t{1} << 22;  // a log of 90 s with 1000 rows of 45 bytes per second
   std::string text;
   try {
-    text = read_start(path, kMostScenario + 1);
+    text = read_start(path, kMost + 1);
   } catch (const InputError& error) {
     refuse(path, asked_at, error.problems().front().text);
   }
-  if (text.size() > kMostScenario) refuse(path, asked_at, "is larger than 1 MB");
+  if (text.size() > kMost) refuse(path, asked_at, "is larger than 4 MB");
   return text;
 }
 

@@ -6,7 +6,7 @@
 
 namespace gaitlab {
 
-/// Reads a regular file of at most kMostScenario bytes. Throws InputError at `asked_at`, the place of the file's name. If
+/// Reads a regular file of at most 4 MB. Throws InputError at `asked_at`, the place of the file's name. If
 /// `asked_at` is empty, the error is at the file.
 std::string read_text(const std::string& path, const SourceLocation& asked_at = {});
 

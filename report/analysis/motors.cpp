@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <memory>
 #include <string_view>
 
 #include "core/laws/dc_motor.h"
 #include "core/plugin/robot_info.h"
+#include "core/robot_files/servo_file.h"
 #include "core/robot_files/type_presets.h"
 #include "core/scenario/built_robot.h"
 #include "core/scenario/sections.h"
@@ -111,10 +111,14 @@ std::vector<Identification> identifications(const Scenario& scenario) {
     if (scenario.robot->joints[j].driven()) all[j] = presets ? types.identification(j) : scenario.identified;
   }
   if (presets && std::ranges::any_of(all, &Identification::any)) {
-    constexpr std::array kKept{"u_max", "i_max", "efficiency", "stall_current"};
-    const std::vector<std::string> changed = changed_figures(scenario, types);
-    const auto kept = [&](const std::string& key) { return std::ranges::count(kKept, key) > 0; };
-    if (!std::ranges::all_of(changed, kept)) all.assign(all.size(), {});
+    const auto moves = [&](const std::string& key) {
+      const auto states = [&](const Node& document) {
+        return std::ranges::any_of(preset_maps(document, Kind::actuator),
+                                   [&](const Node* map) { return map->find(key) != nullptr; });
+      };
+      return moves_joint(key, std::ranges::any_of(*scenario.module_documents, states));
+    };
+    if (std::ranges::any_of(changed_figures(scenario, types), moves)) all.assign(all.size(), {});
   }
   return all;
 }

@@ -199,7 +199,7 @@ std::string left_out_sentence(const Scenario& scenario) {
 
 /// Sentence on the sources of motors and docks, `motors: identified from 8 logs (held-out MAE 43.6 mrad)`. A run beyond the
 /// logs is named.
-std::string motor_figures(const CheckedRun& run, const Verdict& made, const std::vector<std::string>& motors,
+std::string motor_figures(const CheckedRun& run, const Verdict& made, std::vector<std::string> motors,
                           const std::vector<std::string>& docks) {
   std::vector<std::string> identified;
   bool all = true;
@@ -212,6 +212,10 @@ std::string motor_figures(const CheckedRun& run, const Verdict& made, const std:
   }
   const auto check = std::ranges::find(made.checks, "identified", &Check::id);
   if (!identified.empty() && check->status == CheckStatus::warn) identified.back() += ", which this run exceeds";
+  if (!motors.empty() && !identified.empty() && !all && std::ranges::none_of(motors, chosen)) {
+    const TypePresets types(Kind::actuator, run.scenario.robot.get(), *run.scenario.module_documents);
+    motors = types.sources(*run.scenario.actuator.entry, {}, true);
+  }
   return figures_sentence(motors, docks, identified, all);
 }
 

@@ -20,6 +20,8 @@ ENDS = 0.3  # s, left out at both ends
 ROW = 0.002  # s, as in the logs
 FORMULA = 0.01  # N m: differences over 2 ms err by 0.3 % at 8 Hz, and the sign of a speed by a row at 0.5 N m
 PERIOD = 1e-4  # s, of the loop
+# N m, shoulder and elbow, that `gaitlab identify --of voltage` found in halves of the second log for the first, and vice versa
+FITTED = [0.266, 0.134], [0.1824, 0.195]
 GAINS = "Kp: 1e5, Ki: 0, Kd: 80, N: 1e6"  # V/rad, V s/rad; an error of 1e-5 rad gives 1 N m
 MODULE = """gaitlab_module: 1
 name: arm
@@ -97,23 +99,26 @@ def main():
     p = {key: float(value) for key, value in (line.split(":") for line in lines)}
     logs = sorted(LOGS.glob("*.csv"))
     wrong = [] if len(logs) == 2 else [f"{len(logs)} logs; expected 2"]
-    for name, factor, most in (("none", 0, None), ("cf", 1, 0.155), ("pi/2 cf", np.pi / 2, 0.155)):
+    authors = np.array([p["cf1"], p["cf2"]])
+    for name, dry_friction, most in (("none", [0 * authors] * 2, None), ("cf", [authors] * 2, 0.155),
+                                     ("pi/2 cf", [np.pi / 2 * authors] * 2, 0.155), ("of the other log", FITTED, None)):
         errors, formula = [], []
-        for log in logs:
+        for log, dry in zip(logs, dry_friction):
             t, q, logged = read_log(log)
             kept = (t > ENDS) & (t < t[-1] - ENDS)
             with tempfile.TemporaryDirectory() as folder:
-                torque = track(program, pathlib.Path(folder) / "arm", p, t, q, [factor * p["cf1"], factor * p["cf2"]])
+                torque = track(program, pathlib.Path(folder) / "arm", p, t, q, dry)
             errors += [np.abs(torque[j] - logged[j])[kept].mean() for j in range(2)]
             for j, bare in enumerate(by_formula(p, t, q)):
                 w = np.gradient(q[j], t)
-                formula.append(np.abs(torque[j] - bare - p["b1"] * w - factor * p[f"cf{j + 1}"] * np.sign(w))[kept].mean())
+                formula.append(np.abs(torque[j] - bare - p["b1"] * w - dry[j] * np.sign(w))[kept].mean())
         print(f"dry friction {name:8} mean of four joints {np.mean(errors):.3f} N m ({', '.join(f'{x:.3f}' for x in errors)});"
               f" from the textbook {max(formula):.4f} N m")
         # 0.141 and 0.130 N m measured, 0.225 without friction; the bound is that of the issue.
         if most and not np.mean(errors) <= most:
             wrong.append(f"dry friction {name}: mean error {np.mean(errors):.3f} N m; expected at most {most}")
-        if not most and not np.mean(errors) > 0.2:
+        wrong += replay.differs_from_page(f"dry friction {name}", [np.mean(errors), np.mean(errors[:2]), np.mean(errors[2:])], [1e-3] * 3)
+        if name == "none" and not np.mean(errors) > 0.2:
             wrong.append(f"without friction: mean error {np.mean(errors):.3f} N m; expected above 0.2, as in these logs")
         if not max(formula) <= FORMULA:
             wrong.append(f"dry friction {name}: {max(formula):.4f} N m from the textbook's torques; expected at most {FORMULA}")

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "identify/findings.h"
+#include "identify/log_check.h"
 #include "identify/servo_text.h"
 #include "tests/program/fixture.h"
 
@@ -132,6 +133,15 @@ TEST_F(Bench, FindsTheNumbersOfItsOwnLogs) {
   ErrorModels models(with, own, {Logged::angle}, 1, stop);
   EXPECT_EQ(error_of(models.compared({})[0], Logged::angle), error_of(made.after[0], Logged::angle));
 
+  // In a fit of one more key the others keep their source: they are not those of a data sheet.
+  const std::string again_text = servo_text("again", folder_ / "bench.yaml", {}, identified(with, own), with, own);
+  EXPECT_TRUE(contains(again_text, "of: [dry_friction], kind: identified, text: \"identified from 2 logs, fitted to "))
+      << again_text;
+  EXPECT_TRUE(contains(again_text, "of: [efficiency], kind: chosen, text: value of the bench; it does not follow"))
+      << again_text;
+  EXPECT_TRUE(contains(again_text, "kind: chosen, text: stated in the bench}")) << again_text;
+  EXPECT_FALSE(contains(again_text, "data sheet")) << again_text;
+
   const std::vector<std::string> limits = findings(made, logs, keys);
   ASSERT_FALSE(limits.empty());
   EXPECT_TRUE(contains(limits[0], "angles alone are compared")) << limits[0];
@@ -197,7 +207,7 @@ TEST_F(Bench, RefusesLogsThatNoServoRecorded) {
   refused(1, "angle: angle, duty: {column: goal, scale: 0.01}", "the duty reaches 90");
   refused(1, "angle: angle, current: {column: goal, scale: 0.001}", "mA have 1000 as scale");
   refused(1, "angle: angle", "look like ticks", "t,goal,angle\n0,0,0\n0.1,0,300\n0.2,0,900\n");
-  refused(1, "angle: angle", "at row 3", "t,goal,angle\n0,0,0\n0.1,0,0.01\n0.2,0,6\n0.3,0,6.1\n0.4,0,6.2\n");
+  refused(1, "angle: angle", "at row 3, and stays there", "t,goal,angle\n0,0,0\n0.1,0,0.01\n0.2,0,6\n0.3,0,6.1\n0.4,0,6.2\n");
   refused(1, "angle: angle", "times must rise", "t,goal,angle\n0,0,0\n0.1,0,1\n0.1,0,1\n");
   refused(1, "angle: angle", "line 3, column 7", "t,goal,angle\n0,0,0\n0.1,0,nan\n");
   refused(1, "angle: angle", "expected cells between commas", "t;goal;angle\n0;0;0\n");
@@ -207,6 +217,45 @@ TEST_F(Bench, RefusesLogsThatNoServoRecorded) {
   write_bench();
   folder_.write("copy.csv", read(folder_ / "slow.csv"));
   expect_refused([&] { check_logs(bench({"slow.csv", "copy.csv"})); }, "name each log once");
+}
+
+/// Rows with other angles than the servo had: with them a log is refused, and without them it is the log before.
+TEST_F(Bench, SpikesAreNamedAndLeftOut) {
+  write_log("slow.csv", 2, 2);
+  write_bench();
+  const std::vector<BenchLog> clean = bench({"slow.csv"});
+  const MeasuredLog& before = *clean[0].scenario.measured.log;
+  std::istringstream rows(read(folder_ / "slow.csv"));
+  std::string csv = "# a comment\n";
+  std::string json = "{\"entries\": [";
+  std::string row;
+  std::getline(rows, row);
+  csv += row + "\n";
+  const std::vector<std::size_t> spikes{0, 50, 51, 120, 200};
+  for (std::size_t k = 0; std::getline(rows, row); ++k) {
+    std::vector<std::string> cells(1);
+    for (const char c : row) c == ',' ? (void)cells.emplace_back() : cells.back().push_back(c);
+    if (std::ranges::count(spikes, k) > 0) cells[2] = k == 120 ? "-9" : "7";
+    csv += fmt::format("{}\n", fmt::join(cells, ","));
+    json += fmt::format("{}{{\"t\": {}, \"goal\": {}, \"angle\": {}}}", k == 0 ? "" : ", ", cells[0], cells[1], cells[2]);
+  }
+  folder_.write("slow.csv", csv);
+  folder_.write("slow.json", json + "]}");
+  for (const std::string name : {"slow.csv", "slow.json"}) {
+    expect_refused([&] { check_logs(bench({name})); },
+                   "at rows 1, 51, 52, 121, 201; remove these rows, or leave them out with --drop-spikes");
+    const std::vector<BenchLog> logs = read_bench(folder_ / "bench.yaml", {}, {folder_ / name}, catalog(), true);
+    check_logs(logs);
+    EXPECT_EQ(logs[0].left_out, spikes);
+    EXPECT_NE(logs[0].hash, clean[0].hash) << "the hash is that of the file";
+    const MeasuredLog& left = *logs[0].scenario.measured.log;
+    for (std::size_t k = 0, to = 0; k < before.t.size(); ++k) {
+      if (std::ranges::count(spikes, k) > 0) continue;
+      ASSERT_LT(to, left.t.size());
+      EXPECT_NEAR(left.t[to], before.t[k] - before.t[1], 1e-12);
+      EXPECT_EQ(left.joints[0].of(Logged::angle)[to++], before.joints[0].of(Logged::angle)[k]);
+    }
+  }
 }
 
 TEST_F(Bench, RefusesWhatCannotBeFitted) {

@@ -194,6 +194,20 @@ TEST(Measured, AJsonOfARecorderIsTheSameLog) {
   EXPECT_TRUE(contains(found, "log 'log.json', entry 2, key 'timestamp': times must rise")) << found;
 }
 
+TEST(Measured, ALogHasUpTo4Megabytes) {
+  std::string log = "clock,angle,note\n";
+  for (int k = 0; log.size() < 3'000'000; ++k)
+    log += fmt::format("{},{},{}\n", 1e-3 * k, std::sin(1e-3 * k), std::string(200, 'n'));
+  const Folder folder;
+  folder.write("log.csv", log);
+  const std::string file = folder.write(
+      "s.yaml", rod() + kBench + kLoop + "measured: {file: log.csv, time: clock, columns: {m0/swing: {angle: angle}}}\n");
+  const Scenario s = read_scenario(file, {}, catalog());
+  EXPECT_EQ(read_record(resolved(s), file, {}, catalog()).measured.log->t, s.measured.log->t);
+  folder.write("log.csv", log + log);
+  EXPECT_TRUE(contains(message_of([&] { read_scenario(file, {}, catalog()); }), "log.csv' is larger than 4 MB"));
+}
+
 TEST(Measured, RefusesALogWithItsPlace) {
   const auto error = [](const std::string& section) { return message_of([&] { scenario(rod() + kBench + kLoop + section); }); };
   const std::string columns = "  columns: {m0/swing: {angle: a}}\n";

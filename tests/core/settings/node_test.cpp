@@ -82,7 +82,10 @@ TEST(Node, KeysAreNames) {
 TEST(Node, DepthAndSizeAreLimited) {
   EXPECT_EQ(error("a: " + std::string(31, '[') + std::string(31, ']')), test::kNoError);
   EXPECT_EQ(error("a: " + std::string(32, '[') + std::string(32, ']')), "f:1:35: error: nested deeper than 32 levels");
-  EXPECT_EQ(error("a: " + std::string(1 << 20, 'x')), "f: error: the text is larger than 1 MB");
+  EXPECT_EQ(error("a: " + std::string(1 << 24, 'x')), "f: error: the text is larger than 16 MB");
+  std::string many = "a: [";
+  for (int i = 0; i < 1 << 19; ++i) many += "1,\n";
+  EXPECT_EQ(error(many + "]"), "f:524288:1: error: more than 524288 values");  // the key is one of them
 }
 
 TEST(Node, AnAliasBombCostsNothing) {

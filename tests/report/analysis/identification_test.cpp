@@ -61,6 +61,8 @@ TEST_F(Identified, TheVerdictNamesTheLogs) {
             "motors: identified from 8 logs (held-out MAE 50 mrad, worse than 40 mrad before the fit)");
   EXPECT_THROW(with("", model_ + ", identified: {logs: 3, error: -1}"), InputError);
   EXPECT_THROW(with("", model_ + ", identified: {logs: 3, foo: 1}"), InputError);
+  EXPECT_THROW(with("", model_ + ", identified: {logs: 3, held_out_logs: 1}"), InputError);
+  EXPECT_THROW(with(model_ + ", identified: {logs: 3, held_out_logs: 1}"), InputError);
 }
 
 /// A number in the place of an identified one ends the identification; a limit, or a number of currents, does not.
@@ -73,6 +75,56 @@ TEST_F(Identified, AnotherNumberEndsIt) {
   EXPECT_EQ(logs(with(model_, "", "", {"actuator.rotor_inertia=0.02"})), 0);
   EXPECT_EQ(logs(with("type: servo, voltage: 6, stall_torque: 40, no_load_speed: 20, source: a sheet")), 0);
   EXPECT_TRUE(judged(with(model_ + ", stall_torque: 30")).figures.starts_with("motors: chosen figures"));
+}
+
+/// A hinge with a number of its own has no logs, and its number no source; other numbers than those of logs are the rest.
+TEST_F(Identified, TheRestIsThatOfJointsWithoutLogs) {
+  const auto figures = [&](const std::string& type, const std::string& hinge) {
+    const std::string body = ": {mass: 0.1, com: [0, 0, -0.1], inertia: [1e-4, 1e-4, 1e-4, 0, 0, 0]}\n";
+    const std::string joint = ", parent: base, axis: [0, 1, 0], range: free";
+    return judged(read_scenario(
+                      folder_.write("two.yaml",
+                                    "gaitlab: 1\nrobot:\n  base: fixed\n  modules:\n    gaitlab_module: 1\n    name: two\n"
+                                    "    actuator: {" +
+                                        type + "}\n    bodies:\n      base" + body + "      a" + body + "      b" + body +
+                                        "    hinges:\n      - {name: one, child: a" + joint + ", actuator: {" + hinge +
+                                        "}}\n      - {name: other, child: b" + joint +
+                                        "}\ncontroller: {type: rc_servo, gain: 3}\n"
+                                        "cpg: {type: sine, frequency: 0.5, amplitude: 0.5}\nduration: 6\n"
+                                        "contact: {\"on\": none}\nground: {type: none}\n"
+                                        "physics: {engine: articulated, estimate: off}\n"),
+                      {}, catalog()))
+        .figures;
+  };
+  const std::string logs = "motors: identified from 8 logs (held-out MAE 43.6 mrad)";
+  const std::string sheet =
+      "type: servo, voltage: 6, stall_torque: 40, no_load_speed: 20, dry_friction: 1, viscous_friction: 0.1, "
+      "load_friction: 0.1, rotor_inertia: 0.01, source: a sheet";
+  EXPECT_EQ(figures(model_, "u_max: 5, source: the supply"), logs);
+  EXPECT_EQ(figures(model_, "dry_friction: 2"), logs + "; the rest: chosen figures (no source stated)");
+  EXPECT_EQ(figures(sheet, "model: " + (folder_ / "mine.yaml")), logs + "; the rest: a sheet");
+}
+
+/// A setting of the controller that the servo has from logs belongs to the motor.
+TEST_F(Identified, AnotherControllerEndsIt) {
+  folder_.write("mine.yaml",
+                "gaitlab_servo: 1\nname: mine\nidentified: {logs: 8}\n"
+                "sources:\n  - {of: [voltage, stall_torque, no_load_speed, latency], kind: identified, text: a bench}\n"
+                "  - {of: [gain], kind: data sheet, text: a sheet}\n"
+                "actuator: {type: servo, voltage: 6, stall_torque: 40, no_load_speed: 20}\n"
+                "controller: {type: rc_servo, gain: 3, latency: 0.007}\n");
+  const auto read = [&](const std::string& controller, const std::vector<std::string>& sets = {}) {
+    return with(model_ + "}\ncontroller: {" + controller, "", "", sets);
+  };
+  const std::string model = "model: " + (folder_ / "mine.yaml");
+  EXPECT_EQ(logs(read(model)), 8);
+  EXPECT_EQ(logs(read(model + ", gain: 5, latency: 0.007")), 8);
+  EXPECT_EQ(logs(read(model + ", latency: 0.02")), 0);
+  EXPECT_EQ(logs(read("type: rc_servo, gain: 3, latency: 0.02")), 0);
+  EXPECT_EQ(logs(read(model, {"controller.latency=0.01"})), 0);
+  const std::string text = resolved(read(model));
+  EXPECT_EQ(logs(read_record(text, folder_ / "resolved.yaml", {"controller.gain=4"}, catalog())), 8);
+  EXPECT_EQ(logs(read_record(text, folder_ / "resolved.yaml", {"controller.latency=0.01"}, catalog())), 0);
 }
 
 TEST_F(Identified, ARecordKeepsItAndASetEndsIt) {
@@ -118,6 +170,9 @@ TEST_F(Identified, FaultyKeysAreRefused) {
   refused("held_out: 0.04", "mine.yaml:4:13: error: identified has no logs; expected their number, as in {logs: 8}");
   refused("logs: 8, speeds: 3", "mine.yaml:4:23: error: unknown key 'speeds'; did you mean 'speed'?");
   refused("logs: -1", "mine.yaml:4:20");
+  refused("logs: 8, held_out_logs: 4",
+          "mine.yaml:4:38: error: held_out_logs has no held_out; expected the error of these logs");
+  refused("logs: 8, held_out: 0.04", "mine.yaml:4:33: error: held_out has no held_out_logs; expected their number");
 }
 
 TEST(Identification, TextsHaveTheirUnits) {
