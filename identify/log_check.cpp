@@ -153,7 +153,7 @@ Jumps jumps_of(const Scenario& scenario) {
   }
   for (std::vector<std::size_t>* const rows : {&all.spikes, &all.steps}) {
     std::ranges::sort(*rows);
-    rows->erase(std::ranges::unique(*rows).begin(), rows->end());
+    rows->erase(std::unique(rows->begin(), rows->end()), rows->end());  // clang 14 cannot compile ranges::unique
   }
   return all;
 }

@@ -137,9 +137,9 @@ TEST_F(Bench, FindsTheNumbersOfItsOwnLogs) {
   const std::string again_text = servo_text("again", folder_ / "bench.yaml", {}, identified(with, own), with, own);
   EXPECT_TRUE(contains(again_text, "of: [dry_friction], kind: identified, text: \"identified from 2 logs, fitted to "))
       << again_text;
-  EXPECT_TRUE(contains(again_text, "of: [efficiency], kind: chosen, text: value of the bench; it does not follow"))
+  EXPECT_TRUE(contains(again_text, "of: [efficiency], kind: chosen, text: \"value of the bench; it does not follow"))
       << again_text;
-  EXPECT_TRUE(contains(again_text, "kind: chosen, text: stated in the bench}")) << again_text;
+  EXPECT_TRUE(contains(again_text, "kind: chosen, text: \"stated in the bench\"}")) << again_text;
   EXPECT_FALSE(contains(again_text, "data sheet")) << again_text;
 
   const std::vector<std::string> limits = findings(made, logs, keys);
