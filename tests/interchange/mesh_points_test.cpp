@@ -52,7 +52,7 @@ TEST_F(MeshPoints, ReadsStlAndObj) {
   EXPECT_EQ(mesh_vertices(folder_.write("c.obj", "# c\nv 0 0 0\nvn 9 9 9\nv 1 0 0 1\nv 0 2 .5\nf 1 2 3\n")), triangle);
 }
 
-/// What a file announces is compared with its length.
+/// The number of triangles in a file is compared with its length.
 TEST_F(MeshPoints, RefusesFilesThatLie) {
   EXPECT_EQ(refused("a.stl", stl({{0, 0, 0}, {1, 0, 0}, {0, 2, 0}}, 4'000'000'000U)),
             "a.stl: error: 4000000000 triangles are announced, the file has 1 and 0 further bytes");

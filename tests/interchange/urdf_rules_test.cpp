@@ -342,7 +342,8 @@ TEST_F(FromUrdf, VisualIsTheContactOnlyWithoutCollision) {
   const ModuleType type =
       read_urdf(urdf_link("a", kInertial + part("visual", "<sphere radius='0.1'/>") + part("collision", mesh)));
   EXPECT_EQ(type.bodies[0].shapes.at(0).kind, Shape::Kind::sphere);
-  EXPECT_EQ(notes(), Texts{"2 Changed: link 'a' has meshes as collision; its visual shapes are its contact"});
+  EXPECT_EQ(notes(),
+            Texts{"2 Changed: link 'a' has meshes that cannot be read as collision; its visual shapes are its contact"});
   const std::string same = "<box size='1 2 3'/>";
   read_urdf(urdf_link("a", kInertial + part("visual", same) + part("collision", same)));
   EXPECT_EQ(notes(), Texts{}) << "equal shapes lose nothing";
@@ -400,7 +401,7 @@ TEST_F(FromUrdf, MeshesAreHulls) {
 /// Meshes that cannot be read are problems at their link, unless the visual has other shapes; a flat mesh has no shape.
 TEST_F(FromUrdf, MeshesThatCannotBeRead) {
   folder_.write("flat.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\n");
-  folder_.write("short.stl", std::string(84, '\x01'));
+  folder_.write("short.stl", std::string(80, '\0') + "\1\1\1\1");
   const auto robot = [](const std::string& parts) {
     return urdf_link("a", kInertial + parts) + urdf_link("b") + urdf_joint("ab", "revolute", "a", "b", kLimit);
   };
@@ -408,14 +409,15 @@ TEST_F(FromUrdf, MeshesThatCannotBeRead) {
     return "<collision><geometry><mesh filename='" + file + "'/></geometry></collision>";
   };
   const std::string box = "<visual><geometry><box size='1 1 1'/></geometry></visual>";
-  EXPECT_TRUE(contains(refused(robot(mesh("short.stl"))), "short.stl: 16843009 triangles are announced")) << "at the link";
+  const std::string damaged = refused(robot(mesh("short.stl")));
+  EXPECT_TRUE(contains(damaged, "r:2:1: error: link 'a' has the mesh 'short.stl': ")) << damaged;
+  EXPECT_TRUE(contains(damaged, "16843009 triangles are announced, the file has 0 and 0 further bytes")) << damaged;
   EXPECT_EQ(read_urdf(robot(mesh("none.stl") + box)).bodies[0].shapes.front().kind, Shape::Kind::box);
-  EXPECT_TRUE(contains(notes().front(),
-                       "link 'a' has meshes that cannot be read as collision; its visual shapes are its "
-                       "contact"))
-      << notes().front();
+  EXPECT_EQ(notes().back(),
+            "2 Changed: link 'a' has meshes that cannot be read as collision; its visual shapes are its contact");
   EXPECT_TRUE(read_urdf(robot(mesh("flat.obj"))).bodies[0].shapes.empty());
-  EXPECT_TRUE(contains(notes().front(), "all points of which are in one plane; it has no shape")) << notes().front();
+  EXPECT_EQ(notes().back(),
+            "2 Changed: link 'a' has the mesh 'flat.obj', all points of which are in one plane; it has no shape");
 }
 
 }  // namespace
