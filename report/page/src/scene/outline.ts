@@ -41,7 +41,7 @@ export function hull(points: readonly Point[]): Point[] {
 const area = (p: readonly Point[]): number =>
   Math.abs(p.reduce((sum, [x, y], i) => sum + x * p[(i + 1) % p.length][1] - p[(i + 1) % p.length][0] * y, 0)) / 2;
 
-/** Prism of a shape; null if the shape is a sphere or a hull, or if the axis of the shape is not along the body's y axis. */
+/** Prism of a shape; null for a sphere, a hull, and a shape whose axis is not along the body's y axis. */
 function prism({ kind, pose, size }: Shape): Prism | null {
   const turn = rotation(pose);
   const along = new Vector3(0, 1, 0).applyQuaternion(turn);
