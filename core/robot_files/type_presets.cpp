@@ -6,6 +6,7 @@
 #include <map>
 
 #include "core/plugin/plugin_instance.h"
+#include "core/robot_files/servo_file.h"
 #include "core/settings/value.h"
 #include "core/settings/wording.h"
 #include "core/settings/writer.h"

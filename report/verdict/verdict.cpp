@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "core/robot_files/type_presets.h"
 #include "core/settings/wording.h"
 #include "report/analysis/plugin_names.h"
 #include "report/verdict/checks/checked_run.h"
