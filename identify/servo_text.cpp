@@ -143,9 +143,10 @@ class Sources {
   }
   [[nodiscard]] std::string text() const {
     std::string text;
-    for (const ServoSource& one : all_)
+    for (const ServoSource& one : all_) {
       text += fmt::format("  - {{of: [{}], kind: {}, text: {}}}\n", fmt::join(one.of, ", "), name_of(one.kind),
                           yaml_text(one.text));
+    }
     return text;
   }
 
