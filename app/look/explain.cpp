@@ -187,10 +187,11 @@ std::string explain_named(const std::string& kind_name, const std::string& name,
   std::error_code none;
   const bool file = std::filesystem::exists(name, none) && !std::filesystem::is_directory(name, none);
   if (own_files && (name.ends_with(".yaml") || file)) {
-    if (known)
+    if (known) {
       say(name, "note",
           fmt::format("'{0}' is the file './{0}', not the {1} that comes with gaitlab", name,
                       kind->name == "module" ? "module type" : "servo"));
+    }
     return kind->name == "module" ? module_manual(name, catalog) : servo_manual(name, catalog);
   }
   if (known) return kind->manual(name, catalog);

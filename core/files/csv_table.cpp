@@ -85,9 +85,10 @@ void CsvTable::read_entries(std::string_view text) {
     throw std::invalid_argument("the JSON has a number beyond the range of a double");
   }
   const Json& entries = json["entries"];
-  if (!entries.is_array() || entries.empty() || !entries.front().is_object())
+  if (!entries.is_array() || entries.empty() || !entries.front().is_object()) {
     throw std::invalid_argument(
         "the JSON has no entries; expected {\"entries\": [{\"timestamp\": 0, \"position\": 0.1}, ...]}");
+  }
   for (const auto& [name, value] : entries.front().items()) names_.push_back(name);
   for (const Json& entry : entries) {
     Row row{rows_.size() + 1, {}};

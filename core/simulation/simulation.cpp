@@ -134,9 +134,10 @@ In Simulation::motor_speeds() {
   if (plays_.empty()) return speeds;
   const std::size_t lanes = lanes_.size();
   std::ranges::copy(speeds, motor_speed_.begin());
-  for (std::size_t k = 0; k < plays_.size(); ++k)
+  for (std::size_t k = 0; k < plays_.size(); ++k) {
     std::copy_n(plant_state_.begin() + static_cast<std::ptrdiff_t>(layout_.rotor_speeds() + k * lanes), lanes,
                 motor_speed_.begin() + static_cast<std::ptrdiff_t>(plays_[k] * lanes));
+  }
   return motor_speed_;
 }
 

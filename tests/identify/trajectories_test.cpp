@@ -143,9 +143,10 @@ TEST_F(Trajectories, LogsOfThemHaveTheNumbersOfTheServo) {
       const std::vector<double> goal = goals.column("goal"), on = goals.column("on");
       std::string log = "t,goal,angle,on\n";
       constexpr double kTick = 2 * std::numbers::pi / 4096;  // an encoder of 12 bits
-      for (std::size_t k = 0; k < goal.size(); ++k)
+      for (std::size_t k = 0; k < goal.size(); ++k) {
         log += fmt::format("{},{},{},{}\n", record.trace.at(k, 0), goal[k],
                            kTick * std::round(trace.at(k, "joint.0.angle") / kTick), on[k]);
+      }
       const std::string file = fmt::format("{}-{}.csv", name, gain);
       folder_.write(file, log);
       table += fmt::format("{},{}\n", file, gain);
