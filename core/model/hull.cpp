@@ -1,6 +1,7 @@
 #include "core/model/hull.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <optional>
 
@@ -10,16 +11,21 @@ namespace gaitlab {
 
 namespace {
 
-constexpr double kOnPlane = 1e-9;  // distance from a plane that counts as 0, as a share of the points' extent
+// Distances that count as 0, as shares of the points' extent.
+constexpr double kOnPlane = 1e-9;  // from a plane or an edge
+constexpr double kOnLine = 1e-6;   // of a point from the line through two others: rounding turns their plane by 1e-10 at most
 
 /// The plane through three points, with all points on its inner side; nothing if there are points on both sides, or if the
 /// three are on a line.
 std::optional<Hull::Face> supporting_plane(const std::vector<Vec3>& points, const std::array<std::size_t, 3>& of,
-                                           double rounding) {
+                                           double extent) {
+  const double rounding = kOnPlane * extent;
   const Vec3& origin = points[of[0]];
-  const Vec3 across = (points[of[1]] - origin).cross(points[of[2]] - origin);
+  const Vec3 u = points[of[1]] - origin;
+  const Vec3 v = points[of[2]] - origin;
+  const Vec3 across = u.cross(v);
   const double area = across.norm();
-  if (!(area > rounding * rounding)) return {};
+  if (!(area > kOnLine * extent * std::max({u.norm(), v.norm(), (v - u).norm()}))) return {};
   Vec3 normal = across / area;
   double low = 0;
   double high = 0;
@@ -39,21 +45,36 @@ struct Flat {
   std::size_t index;
 };
 
-/// Sets the corners of a face to those of the points `on` its plane that are corners of its outline.
-void set_corners(Hull::Face& face, const std::vector<Vec3>& points, const std::vector<std::size_t>& on) {
+/// Removes corners that are on the line through their neighbours.
+void drop_straight_corners(std::vector<std::size_t>& around, const std::vector<Vec3>& points, double rounding) {
+  for (std::size_t k = 0; k < around.size() && around.size() > 3;) {
+    const Vec3& before = points[around[(k + around.size() - 1) % around.size()]];
+    const Vec3 way = points[around[(k + 1) % around.size()]] - before;
+    if ((points[around[k]] - before).cross(way).norm() > rounding * way.norm()) {
+      ++k;
+    } else {
+      around.erase(around.begin() + static_cast<std::ptrdiff_t>(k));
+      k = 0;
+    }
+  }
+}
+
+/// Sets the corners of a face to the corners of the outline of the points `on` its plane.
+void set_corners(Hull::Face& face, const std::vector<Vec3>& points, const std::vector<std::size_t>& on, double rounding) {
   const Vec3 u = face.normal.unitOrthogonal();
   const Vec3 v = face.normal.cross(u);
   std::vector<Flat> flat;
   flat.reserve(on.size());
   for (const std::size_t p : on) flat.push_back({u.dot(points[p]), v.dot(points[p]), p});
   for (const Flat& corner : math::convex_hull(std::move(flat))) face.corners.push_back(corner.index);
+  drop_straight_corners(face.corners, points, rounding);
 }
 
 bool contains(const std::vector<std::size_t>& all, const std::array<std::size_t, 3>& some) {
   return std::ranges::all_of(some, [&](std::size_t one) { return std::ranges::binary_search(all, one); });
 }
 
-/// Points without those that coincide with an earlier one.
+/// The points, each place once.
 std::vector<Vec3> distinct(std::span<const Vec3> points, double rounding) {
   std::vector<Vec3> all;
   for (const Vec3& point : points) {
@@ -118,7 +139,8 @@ Hull convex_hull(std::span<const Vec3> points) {
     low = low.cwiseMin(point);
     high = high.cwiseMax(point);
   }
-  const double rounding = kOnPlane * (high - low).norm();
+  const double extent = (high - low).norm();
+  const double rounding = kOnPlane * extent;
   hull.corners = distinct(points, rounding);
   const std::vector<Vec3>& p = hull.corners;
   std::vector<std::vector<std::size_t>> on_faces;  // points on the plane of each face
@@ -127,14 +149,14 @@ Hull convex_hull(std::span<const Vec3> points) {
       for (std::size_t k = j + 1; k < p.size(); ++k) {
         const std::array three{i, j, k};
         if (std::ranges::any_of(on_faces, [&](const auto& on) { return contains(on, three); })) continue;
-        std::optional<Hull::Face> face = supporting_plane(p, three, rounding);
+        std::optional<Hull::Face> face = supporting_plane(p, three, extent);
         if (!face) continue;
         std::vector<std::size_t> on;
         for (std::size_t n = 0; n < p.size(); ++n) {
           if (face->normal.dot(p[n]) - face->offset >= -rounding) on.push_back(n);
         }
         if (on.size() == p.size()) return {};
-        set_corners(*face, p, on);
+        set_corners(*face, p, on, rounding);
         hull.faces.push_back(std::move(*face));
         on_faces.push_back(std::move(on));
       }

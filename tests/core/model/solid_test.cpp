@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/model/hull_shape.h"
 #include "tests/labels.h"
 
 namespace gaitlab {
@@ -182,6 +183,7 @@ TEST(Hull, RandomPoints) {
     std::set<std::pair<std::size_t, std::size_t>> edges;
     for (const Hull::Face& face : hull.faces) {
       EXPECT_NEAR(face.normal.norm(), 1, kByRounding);
+      // Points within 1e-9 of the extent of the points, at most 8, count as on a plane.
       for (const Vec3& point : points) EXPECT_LE(face.normal.dot(point), face.offset + 1e-8);
       for (std::size_t k = 0; k < face.corners.size(); ++k) {
         EXPECT_NEAR(face.normal.dot(hull.corners[face.corners[k]]), face.offset, 1e-8);
@@ -208,6 +210,28 @@ TEST(Hull, OfABox) {
   EXPECT_LT((found.centre - box.centre).norm(), kByRounding);
   EXPECT_LT((found.second - box.second).norm(), kByRounding);
   EXPECT_LT((shape.size - size).norm(), kByRounding);
+}
+
+/// Points on the edges of a turned box are on a line with its corners, except for rounding. The hull leaves them out.
+TEST(Hull, OfABoxWithPointsOnItsEdges) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> any(-3, 3);
+  for (int turned = 0; turned < 20; ++turned) {
+    const double roll = any(random), pitch = any(random), yaw = any(random);
+    const Mat3 R = rpy({roll, pitch, yaw});
+    const std::array<Vec3, 8> corners = box_corners({0.1, 0.2, 0.3});
+    std::vector<Vec3> points;
+    for (std::size_t a = 0; a < 8; ++a) {
+      points.push_back(R * corners[a]);
+      for (std::size_t b = a + 1; b < 8; ++b) {
+        if (((corners[a] - corners[b]).array() != 0).count() == 1)
+          points.push_back(R * Vec3(corners[a] + 0.3 * (corners[b] - corners[a])));
+      }
+    }
+    const Hull hull = convex_hull(points);
+    EXPECT_EQ(hull.corners.size(), 8U) << turned;
+    EXPECT_EQ(hull.faces.size(), 6U) << turned;
+  }
 }
 
 /// A tetrahedron with three edges of length a, b, c at right angles has V = a b c / 6, its centre at (a, b, c) / 4, and
