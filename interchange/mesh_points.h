@@ -1,4 +1,4 @@
-// Vertices of mesh files, and the few of them whose convex hull nearly is that of all.
+// Vertices of mesh files, and a choice of few with nearly the same convex hull.
 #pragma once
 #include <span>
 #include <string>

@@ -169,7 +169,7 @@ class Urdf {
   }
 
   /// Writes a shape. URDF has no half cylinder: a whole one is written, whose other half is inside the body. A hull becomes the
-  /// box around it, because a mesh of URDF is a file of its own.
+  /// box around it, because URDF has meshes in separate files only.
   static void draw(Xml& geometry, const Shape& shape) {
     if (shape.kind == Shape::Kind::box || shape.kind == Shape::Kind::hull) {
       set(add(geometry, "box"), "size", text(shape.size));

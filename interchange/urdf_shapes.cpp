@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "core/model/hull_shape.h"
 #include "core/settings/wording.h"
 #include "interchange/robot_xml.h"
 #include "interchange/urdf.h"

@@ -28,9 +28,8 @@ struct UrdfPart {
   [[nodiscard]] bool is_point() const;
 };
 
-/// Maker of shapes. A mesh becomes the convex hull of at most 32 of its points, as written by its module: rounded to 1 um. A
-/// mesh file is looked up in the folder `meshes` if there is one, then beside the URDF file and in the four folders above it,
-/// with and without the name of its package.
+/// Maker of shapes. A mesh becomes the convex hull of at most 32 of its points. A mesh file is looked up in the folder `meshes`
+/// if there is one, then beside the URDF file and in the four folders above it, with and without the name of its package.
 class UrdfShapes {
  public:
   UrdfShapes(const UrdfText& urdf, std::string meshes) : urdf_(urdf), meshes_(std::move(meshes)) {}
@@ -38,7 +37,7 @@ class UrdfShapes {
   /// True if the part is not a mesh, or if its file is there and is STL or OBJ.
   bool readable(const UrdfPart& part) const;
   /// Adds the shapes of a part of a link, at a pose in their body. Adds a problem for a mesh that cannot be read, and a note
-  /// for one that is flat and has no shape.
+  /// on a flat one, which is left out.
   void add(const std::string& link, const Pose& pose, const UrdfPart& part, std::vector<Shape>& shapes,
            std::vector<UrdfNote>& notes, Problems& problems);
   /// Adds a note on the meshes that became hulls.

@@ -6,7 +6,6 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -29,9 +28,6 @@ struct Shape {
   Vec3 size = Vec3::Zero();  ///< box: x y z; cylinders: radius, length, 0; sphere: radius, 0, 0; hull: edges of its box
   std::shared_ptr<const Hull> hull = {};  ///< set for a hull only, in the axes of the shape
 };
-
-/// Shape of the convex hull of at most 64 points, in their frame at `in_body`; nothing if the points are in a plane.
-std::optional<Shape> hull_shape(const Pose& in_body, std::span<const Vec3> points);
 
 template <>
 struct EnumNames<Shape::Kind> {

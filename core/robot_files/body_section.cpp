@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/model/hull_shape.h"
 #include "core/model/solid.h"
 #include "core/settings/wording.h"
 

@@ -1,4 +1,4 @@
-// Vertices of mesh files, also of files that lie, and the few whose hull nearly is that of all.
+// Meshes of URDF files as hulls: vertices of their files, also of damaged ones, and the few that are kept.
 #include "interchange/mesh_points.h"
 
 #include <gtest/gtest.h>
@@ -6,10 +6,12 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <filesystem>
 #include <limits>
-#include <numbers>
 
+#include "core/model/solid.h"
 #include "tests/folder.h"
+#include "tests/interchange/from_urdf.h"
 #include "tests/messages.h"
 
 namespace gaitlab::test {
@@ -53,7 +55,7 @@ TEST_F(MeshPoints, ReadsStlAndObj) {
 }
 
 /// The number of triangles in a file is compared with its length.
-TEST_F(MeshPoints, RefusesFilesThatLie) {
+TEST_F(MeshPoints, RefusesDamagedFiles) {
   EXPECT_EQ(refused("a.stl", stl({{0, 0, 0}, {1, 0, 0}, {0, 2, 0}}, 4'000'000'000U)),
             "a.stl: error: 4000000000 triangles are announced, the file has 1 and 0 further bytes");
   EXPECT_EQ(refused("b.stl", stl({{0, 0, 0}, {1, 0, 0}, {0, std::numeric_limits<double>::infinity(), 0}}, 1)),
@@ -73,6 +75,66 @@ TEST_F(MeshPoints, ABoxHasItsCorners) {
   EXPECT_EQ(hull.size(), 8U);
   for (const Vec3& one : hull)
     for (const double at : {one.x() / 0.4, one.y() / 0.8, one.z() / 1.2}) EXPECT_NEAR(std::abs(2 * at - 1), 1, 1e-12);
+}
+
+/// Text of an OBJ file with the corners of a box between two corners.
+std::string obj_box(const Vec3& low, const Vec3& high) {
+  std::string text;
+  for (const Vec3& at : box_corners(high - low)) {
+    const Vec3 corner = at + (low + high) / 2;
+    text += fmt::format("v {} {} {}\n", corner.x(), corner.y(), corner.z());
+  }
+  return text;
+}
+
+/// A mesh is the hull of its points, at the place and scale of the URDF file. Its file is found beside the URDF file, above it
+/// by the name of its package, or in the folder of --meshes, which comes first.
+TEST_F(FromUrdf, MeshesAreHulls) {
+  folder_.write("box.obj", obj_box({-0.1, -0.2, -0.3}, {0.3, 0.2, 0.1}));
+  std::filesystem::create_directories(folder_ / "dog/meshes");
+  folder_.write("dog/meshes/box.obj", obj_box({0, 0, 0}, {2, 2, 2}));
+  const auto mesh = [](const std::string& attributes) {
+    return "<collision><origin xyz='0 0 1'/><geometry><mesh " + attributes + "/></geometry></collision>";
+  };
+  const auto bounds_of = [&](const std::string& attributes) {
+    const ModuleType type = read_urdf(urdf_link("a", kInertial + mesh(attributes)) + urdf_link("b") +
+                                      urdf_joint("ab", "revolute", "a", "b", kLimit));
+    EXPECT_EQ(type.bodies[0].shapes.front().kind, Shape::Kind::hull);
+    return bounds(type.bodies[0].shapes);
+  };
+  const auto [low, high] = bounds_of("filename='box.obj' scale='1 0.5 -1'");
+  EXPECT_LT((low - Vec3(-0.1, -0.1, 0.9)).norm(), 1e-12);
+  EXPECT_LT((high - Vec3(0.3, 0.1, 1.3)).norm(), 1e-12);
+  EXPECT_EQ(notes().back(),
+            "2 Changed: 1 mesh is the convex hull of at most 32 of its points; the widest gap is 0 % of its "
+            "longest edge, in link 'a'");
+  for (const char* name : {"package://dog/meshes/box.obj", "dog/meshes/box.obj", "model://dog/meshes/box.obj"})
+    EXPECT_EQ(bounds_of("filename='" + std::string(name) + "'").second, Vec3(2, 2, 3)) << name;
+  options_.meshes = folder_ / "dog/meshes";
+  EXPECT_EQ(bounds_of("filename='package://cat/box.obj'").second, Vec3(2, 2, 3));
+  EXPECT_EQ(bounds_of("filename='box.obj'").second, Vec3(2, 2, 3)) << "--meshes comes first";
+}
+
+/// Meshes that cannot be read are problems at their link, unless the visual has other shapes; a flat mesh has no shape.
+TEST_F(FromUrdf, MeshesThatCannotBeRead) {
+  folder_.write("flat.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\n");
+  folder_.write("short.stl", std::string(80, '\0') + "\1\1\1\1");
+  const auto robot = [](const std::string& parts) {
+    return urdf_link("a", kInertial + parts) + urdf_link("b") + urdf_joint("ab", "revolute", "a", "b", kLimit);
+  };
+  const auto mesh = [](const std::string& file) {
+    return "<collision><geometry><mesh filename='" + file + "'/></geometry></collision>";
+  };
+  const std::string box = "<visual><geometry><box size='1 1 1'/></geometry></visual>";
+  const std::string damaged = refused(robot(mesh("short.stl")));
+  EXPECT_TRUE(contains(damaged, "r:2:1: error: link 'a' has the mesh 'short.stl': ")) << damaged;
+  EXPECT_TRUE(contains(damaged, "16843009 triangles are announced, the file has 0 and 0 further bytes")) << damaged;
+  EXPECT_EQ(read_urdf(robot(mesh("none.stl") + box)).bodies[0].shapes.front().kind, Shape::Kind::box);
+  EXPECT_EQ(notes().back(),
+            "2 Changed: link 'a' has meshes that cannot be read as collision; its visual shapes are its contact");
+  EXPECT_TRUE(read_urdf(robot(mesh("flat.obj"))).bodies[0].shapes.empty());
+  EXPECT_EQ(notes().back(),
+            "2 Changed: link 'a' has the mesh 'flat.obj', all points of which are in one plane; it has no shape");
 }
 
 }  // namespace

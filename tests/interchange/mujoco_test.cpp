@@ -281,5 +281,34 @@ TEST(Mujoco, StrictFileIsTheRobotWithoutContactsAndControllers) {
 )");
 }
 
+/// A hull is a mesh whose vertices MuJoCo moves to the mesh's own axes: in the world they are at our corners. MuJoCo has them
+/// as float, 6e-8 of 0.3 m.
+TEST(Mujoco, HasTheCornersOfHulls) {
+  const Scenario s = scenario(
+      "robot: {modules: {name: rock, bodies: {a: {mass: 1, inertia: [1, 1, 1, 0, 0, 0], shape: [{hull: [[0.3, 0, 0], [0, 0.2, "
+      "0], [0, 0, 0.1], [-0.1, -0.1, -0.1], [0.2, 0.2, 0]], origin: [0.1, 0.2, 0.3], rpy: [0.3, 0.4, 0.5]}]}}}, position: [1, "
+      "2, 3]}\ncontact: {on: none}\nduration: 1\n");
+  InMujoco mujoco(s);
+  mj_forward(&mujoco.model(), &mujoco.data());
+  const mjModel& model = mujoco.model();
+  ASSERT_EQ(model.nmesh, 1);
+  const auto geom = std::find(model.geom_type, model.geom_type + model.ngeom, mjGEOM_MESH) - model.geom_type;
+  ASSERT_LT(geom, model.ngeom);
+  const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> R(mujoco.data().geom_xmat + 9 * geom);
+  const Eigen::Map<const Vec3> p(mujoco.data().geom_xpos + 3 * geom);
+  const Shape& shape = s.robot->types[0].bodies[0].shapes[0];
+  const RobotState start = start_state(s);
+  ASSERT_EQ(shape.hull->corners.size(), 5U);
+  for (const Vec3& corner : shape.hull->corners) {
+    const Vec3 ours = start.orientation * (shape.in_body * corner) + start.position;
+    double nearest = 1;
+    for (int v = 0; v < model.mesh_vertnum[0]; ++v) {
+      const Eigen::Map<const Eigen::Vector3f> vertex(model.mesh_vert + 3 * v);
+      nearest = std::min(nearest, (R * vertex.cast<double>() + p - ours).norm());
+    }
+    EXPECT_LT(nearest, 1e-7);
+  }
+}
+
 }  // namespace
 }  // namespace gaitlab::test

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <random>
 
+#include "core/model/hull_shape.h"
 #include "core/model/solid.h"
 
 namespace gaitlab::report {
