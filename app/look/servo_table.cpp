@@ -24,7 +24,8 @@ PluginSelection selected(Kind kind, const Node& map, const Catalog& catalog, Pro
   const std::string name = type == nullptr ? describe(kind).default_type : type->text;
   const Entry* const entry = catalog.find(kind, name);
   if (entry == nullptr) {
-    problems.add(type->place, "type " + in_quotes(name) + " is unknown" + offer(name, catalog.names(kind), "types"));
+    problems.add(type == nullptr ? map.place : type->place,
+                 "type " + in_quotes(name) + " is unknown" + offer(name, catalog.names(kind), "types"));
     return {};
   }
   PluginSelection made{entry, default_settings(*entry)};
