@@ -30,14 +30,14 @@ CONTENTS = (
     ("More", (
         ("Remedies", "docs/remedy.md"), ("Library of modules", "docs/library.md"), ("Studies", "docs/studies.md"),
         ("The page of a run", "docs/report.md"), ("The real robot", "docs/real-robot.md"),
-        ("From a data sheet", "docs/tutorials/motors.md"), ("From logs", "docs/tutorials/your-servo.md"), ("Against measurements", "docs/measured.md"),
+        ("From a data sheet", "docs/tutorials/motors.md"), ("From logs", "docs/tutorials/your-servo.md"),
         ("Write a CPG", "docs/tutorials/write-a-cpg.md"), ("In MuJoCo", "docs/mujoco.md"), ("Files of others", "docs/trust.md"))),
     ("Reference", (
         ("Scenario", "docs/reference/scenario.md"), ("Module", "docs/reference/module.md"), ("Plugins", "docs/reference/plugins.md"),
         ("Verdict", "docs/reference/verdict.md"), ("Study", "docs/reference/study.md"), ("Figure", "docs/reference/figure.md"))),
     ("Conventions", (
         ("Numbers", "docs/numbers.md"), ("Files", "docs/files.md"), ("Equations", "docs/equations.md"), ("The paper's figures", "docs/paper.md"),
-        ("Validation", "docs/validation.md"),
+        ("Validation", "docs/validation.md"), ("Against measurements", "docs/measured.md"),
         ("Determinism", "docs/determinism.md"), ("Benchmarks", "docs/benchmarks.md"))),
     ("Project", (
         ("Changes", "CHANGELOG.md"), ("Contributing", "CONTRIBUTING.md"), ("Tests and tools", "tests/README.md"),

@@ -107,7 +107,7 @@ TEST_F(IdentifyPage, DrawsWhatPixelsShow) {
   const Result result = call("long.html");
   ASSERT_EQ(result.code, 0) << result.err;
   // Each curve has at most two points per px of 374, of 12 characters; five curves of each of two quantities in a figure.
-  constexpr std::size_t kFigure = 2 * 5 * 2 * 374 * 12;
+  constexpr std::size_t kFigure = 2UL * 5 * 2 * 374 * 12;
   EXPECT_LT(fs::file_size(folder_ / "long.html"), fs::file_size(folder_ / "short.html") + 3 * kFigure);
 }
 

@@ -13,6 +13,7 @@
 #include "tests/folder.h"
 #include "tests/interchange/from_urdf.h"
 #include "tests/messages.h"
+#include "tests/program/fixture.h"
 
 namespace gaitlab::test {
 namespace {
@@ -68,9 +69,11 @@ TEST_F(MeshPoints, RefusesDamagedFiles) {
 /// The eight corners of a box are its hull; points within it are not taken.
 TEST_F(MeshPoints, ABoxHasItsCorners) {
   std::vector<Vec3> points;
-  for (int i = 0; i <= 4; ++i)
-    for (int j = 0; j <= 4; ++j)
+  for (int i = 0; i <= 4; ++i) {
+    for (int j = 0; j <= 4; ++j) {
       for (int k = 0; k <= 4; ++k) points.push_back({i * 0.1, j * 0.2, k * 0.3});
+    }
+  }
   const std::vector<Vec3> hull = hull_of_few(points).points;
   EXPECT_EQ(hull.size(), 8U);
   for (const Vec3& one : hull)

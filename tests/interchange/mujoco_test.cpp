@@ -303,7 +303,7 @@ TEST(Mujoco, HasTheCornersOfHulls) {
     const Vec3 ours = start.orientation * (shape.in_body * corner) + start.position;
     double nearest = 1;
     for (int v = 0; v < model.mesh_vertnum[0]; ++v) {
-      const Eigen::Map<const Eigen::Vector3f> vertex(model.mesh_vert + 3 * v);
+      const Eigen::Map<const Eigen::Vector3f> vertex(model.mesh_vert + 3 * static_cast<std::ptrdiff_t>(v));
       nearest = std::min(nearest, (R * vertex.cast<double>() + p - ours).norm());
     }
     EXPECT_LT(nearest, 1e-7);

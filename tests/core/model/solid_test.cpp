@@ -159,7 +159,7 @@ Shape random_shape(std::mt19937& random) {
     return Vec3(x, y, z);
   };
   const auto kind = static_cast<Shape::Kind>(random() % 5);
-  const Shape made{kind, {rpy(3 * vector(any)), vector(any)}, vector(size)};
+  Shape made{kind, {rpy(3 * vector(any)), vector(any)}, vector(size)};
   if (kind != Shape::Kind::hull) return made;
   std::vector<Vec3> points;
   for (int k = 0; k < 16; ++k) points.push_back(vector(any));
