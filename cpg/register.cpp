@@ -4,6 +4,7 @@
 #include "cpg/hopf.h"
 #include "cpg/keyframes.h"
 #include "cpg/kuramoto_amplitude.h"
+#include "cpg/legs.h"
 #include "cpg/matsuoka.h"
 #include "cpg/phase_oscillator.h"
 #include "cpg/sine.h"
@@ -18,6 +19,7 @@ void register_cpgs(Registry& registry) {
   add_cpg<Hopf>(registry, "hopf", Hopf::kManual);
   add_cpg<Keyframes>(registry, "keyframes", Keyframes::kManual);
   add_cpg<KuramotoAmplitude>(registry, "kuramoto_amplitude", KuramotoAmplitude::kManual);
+  add_cpg<Legs>(registry, "legs", Legs::kManual);
   add_cpg<Matsuoka>(registry, "matsuoka", Matsuoka::kManual);
   add_cpg<PhaseOscillator>(registry, "phase_oscillator", PhaseOscillator::kManual);
   add_cpg<Sine>(registry, "sine", Sine::kManual);

@@ -1,5 +1,7 @@
 #include "cpg/tripod.h"
 
+#include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <stdexcept>
 
@@ -11,6 +13,8 @@ namespace {
 constexpr double kFade = 0.2;  // share of the swing in which the tilt fades
 // Rad; near pi / 4 the sole stands on its edge, so that a larger tilt hardly increases the depth.
 constexpr double kSteepest = 0.65;
+constexpr double kAboutY = 0.9;   // cosine between an axis and y
+constexpr double kLowest = 1e-6;  // m, height within which foot points are the lowest
 }  // namespace
 
 const char* const Tripod::kManual =
@@ -29,7 +33,7 @@ duty_factor 0.5 all legs that stand have the same a, and tilt = d sin^2(pi u): t
 rises in mid-stance, as in figure 11 of the paper. A square foot that turns about its ankle only ever gets lower, so a swing foot
 cannot be lifted; the stance feet stand on their edges instead and lift the body.
 
-A leg is a chain of modules docked sideways to the spine that ends in feet. Groups, counted from the front on each side:
+A leg (docs/modules.md) has two hinges about y or more, and feet below the last. Groups, counted from the front on each side:
 alternate - every other leg, the sides opposite (6 legs: tripods, 4 legs: diagonal pairs); wave - one after another from the
 rear to the front, the sides half a period apart (4 legs: with duty_factor 0.75 three should stand at any time). Spine: 0.
 Source: Chariot, Filippi, Verlinden 2012, section IV-B and figure 11; angles and timing chosen.
@@ -51,16 +55,45 @@ void Tripod::Model::fields(Fields& f) {
   f.flag("reverse", reverse, "Run the gait backwards in time.");
 }
 
+std::vector<Tripod::Chain> Tripod::chains(const RobotInfo& robot) {
+  std::vector<Chain> all;
+  for (const Leg& leg : robot.legs) {
+    std::vector<std::size_t> about_y;
+    for (const std::int64_t j : leg.joints) {
+      if (std::abs(robot.joints[static_cast<std::size_t>(j)].axis[1]) > kAboutY) about_y.push_back(static_cast<std::size_t>(j));
+    }
+    if (about_y.size() < 2) continue;
+    const JointInfo& hip = robot.joints[about_y.front()];
+    const JointInfo& ankle = robot.joints[about_y.back()];
+    Chain chain{about_y.front(),
+                about_y.back(),
+                hip.axis[1] > 0 ? 1.0 : -1.0,
+                ankle.axis[1] > 0 ? 1.0 : -1.0,
+                hip.origin[1] > 0,
+                hip.origin[2] - ankle.origin[2]};
+    const std::int64_t last = robot.bodies[static_cast<std::size_t>(leg.bodies.back())].module;
+    const auto& feet = robot.modules[static_cast<std::size_t>(last)].feet;
+    for (const auto& foot : feet) chain.sole_depth = std::max(chain.sole_depth, ankle.origin[2] - foot[2]);
+    for (const auto& foot : feet) {
+      if (ankle.origin[2] - foot[2] > chain.sole_depth - kLowest)
+        chain.sole_reach = std::max(chain.sole_reach, std::abs(foot[0] - ankle.origin[0]));
+    }
+    if (chain.length > 0 && chain.sole_depth > 0) all.push_back(chain);
+  }
+  return all;
+}
+
 Tripod::Tripod(const RobotInfo& robot, const Settings& settings) : joints_(robot.joints.size()), s_(settings) {
-  const std::vector<Leg> legs = find_legs(robot);
-  const auto left = static_cast<std::size_t>(std::count_if(legs.begin(), legs.end(), [](const Leg& leg) { return leg.left; }));
+  const std::vector<Chain> legs = chains(robot);
+  const auto left =
+      static_cast<std::size_t>(std::count_if(legs.begin(), legs.end(), [](const Chain& leg) { return leg.left; }));
   if (legs.size() < 4 || 2 * left != legs.size()) {
     throw std::invalid_argument("it needs legs in pairs, four or more; found " + std::to_string(left) + " on the left and " +
                                 std::to_string(legs.size() - left) +
-                                " on the right (a leg is a chain docked sideways, with two hinges about y and feet below)");
+                                " on the right (a leg has two hinges about y or more, and feet below)");
   }
   std::size_t rank[2] = {0, 0};  // number of the next leg, counted from the front: right, left
-  for (const Leg& leg : legs) {
+  for (const Chain& leg : legs) {
     const std::size_t at = rank[leg.left ? 1 : 0]++;
     const bool other = (at + (leg.left ? 1 : 0)) % 2 == 1;
     const double from_rear = static_cast<double>(left - 1 - at);
@@ -79,7 +112,7 @@ Tripod::Motion Tripod::motion(const Step& step, double cycles, double amplitude)
 }
 
 /// Tilt of the foot at which its lowest point is `height` below the ankle, from z cos(tilt) + x sin(tilt) = height.
-double Tripod::tilt_to_reach(const Leg& leg, double height) {
+double Tripod::tilt_to_reach(const Chain& leg, double height) {
   const double longest = std::sqrt(leg.sole_depth * leg.sole_depth + leg.sole_reach * leg.sole_reach);
   const double flat = math::atan2(leg.sole_depth, leg.sole_reach);
   return std::clamp(math::asin(std::min(1.0, height / longest)) - flat, 0.0, kSteepest);
@@ -98,7 +131,7 @@ Tripod::Depth Tripod::depth(double cycles, double grown) const {
   return d;
 }
 
-double Tripod::tilt(const Leg& leg, const Depth& d, double forward) {
+double Tripod::tilt(const Chain& leg, const Depth& d, double forward) {
   const double below_hip = d.reach + leg.sole_depth * math::cos(d.lift) + leg.sole_reach * math::sin(d.lift);
   return tilt_to_reach(leg, below_hip - leg.length * math::cos(forward));
 }
@@ -124,8 +157,8 @@ void Tripod::output(double t, In, Out setpoint) const {
       tilted = (1 - (1 - m.progress) / kFade) * tilt(step.leg, then, amplitude);
     }
     // A motion towards +x of a leg that hangs down is a left-hand turn about +y.
-    setpoint[static_cast<std::size_t>(step.leg.hip)] = -step.leg.hip_sign * m.forward;
-    setpoint[static_cast<std::size_t>(step.leg.ankle)] = step.leg.ankle_sign * (m.forward - tilted);
+    setpoint[step.leg.hip] = -step.leg.hip_sign * m.forward;
+    setpoint[step.leg.ankle] = step.leg.ankle_sign * (m.forward - tilted);
   }
 }
 

@@ -58,8 +58,8 @@ may_overlap: [[base, head]]            # boxes that meet at the hinge overlap as
 )";
 
 const char* const kSkeletonScenario =
-    R"(# Scenario @NAME@: a wave along @ROBOT@. @PROMISE@: gaitlab run @FILE@
-# Change first: the robot (docks), then frequency, amplitude and phase_lag of the gait. Every key: gaitlab explain
+    R"(# Scenario @NAME@: @WHAT@ @ROBOT@. @PROMISE@: gaitlab run @FILE@
+# Change first: @CHANGE@ of the gait. Every key: gaitlab explain
 gaitlab: 1
 name: @TEXT@
 
@@ -71,14 +71,17 @@ physics:
   accuracy: 0.001          # of the motors' torques
 
 @GROUND@
-@INITIAL@cpg:
-  type: phase_oscillator   # others: gaitlab list cpg
+@INITIAL@@CONTROLLER@cpg:
+@CPG@
+duration: @DURATION@                # s: @PERIODS@
+)";
+
+const char* const kSkeletonWave =
+    R"(  type: phase_oscillator   # others: gaitlab list cpg
   frequency: @FREQUENCY@           # Hz
   amplitude: @AMPLITUDE@           # rad
   offset: @OFFSET@                # rad, middle of the motion
   phase_lag: 1             # rad from joint to joint; negative: the wave runs the other way
-
-duration: @DURATION@                # s: a period to start, and three that are judged
 )";
 
 const char* const kSkeletonBench =

@@ -9,6 +9,7 @@
 
 #include "app/gait/run_time.h"
 #include "app/new/chain.h"
+#include "app/new/leg_values.h"
 #include "app/new/scenario_values.h"
 #include "app/new/skeletons.h"
 #include "app/shell/commands.h"
@@ -176,26 +177,32 @@ NewRobot new_robot(const NewFileArguments& arguments, Catalog& catalog) {
   return robot;
 }
 
-/// Text of the scenario with a gait of this amplitude, rad, and `promise` at its head.
-std::string scenario_text(const NewFileArguments& arguments, const NewRobot& robot, double amplitude,
-                          const std::string& promise) {
-  const GaitValues gait = gait_values(robot.one, amplitude);
+/// Text of the scenario with a gait of this share of the largest amplitude or stride, and `promise` at its head.
+std::string scenario_text(const NewFileArguments& arguments, const NewRobot& robot, double share, const std::string& promise) {
+  constexpr double kAmplitude = 0.4;  // rad
+  const GaitValues gait = gait_values(robot.one, share * kAmplitude);
+  const std::optional<LegValues> legs = robot.docks.empty() ? leg_values(robot.one, share) : std::nullopt;
   const Surroundings around = surroundings(robot.type(), static_cast<int>(robot.docks.size()) + 1);
   const std::pair<const char*, std::string> values[] = {
       {"@NAME@", arguments.name},
       {"@TEXT@", yaml_text(arguments.name)},
-      {"@ROBOT@", robot_text(robot.type().name, robot.docks)},
+      {"@WHAT@", legs ? legs->what + " of" : "a wave along"},
+      {"@CHANGE@", legs ? "gait, frequency and stride" : "the robot (docks), then frequency, amplitude and phase_lag"},
+      {"@ROBOT@", legs ? one_line(robot.type().name) : robot_text(robot.type().name, robot.docks)},
       {"@PROMISE@", one_line(promise)},
       {"@FILE@", one_line(shell_word(arguments.out.value_or(arguments.name + ".yaml")))},
       {"@MODULE@", module_value(robot.module, arguments)},
       {"@DOCKS@", docks_text(robot.docks)},
       {"@BASE@", around.base},
       {"@GROUND@", around.ground},
-      {"@INITIAL@", gait.angles == "0" ? "" : "initial: {angles: " + gait.angles + "}   # rad\n\n"},
+      {"@INITIAL@", legs || gait.angles == "0" ? "" : "initial: {angles: " + gait.angles + "}   # rad\n\n"},
+      {"@CONTROLLER@", legs ? legs->controller : ""},
+      {"@CPG@", legs ? legs->cpg : kSkeletonWave},
       {"@FREQUENCY@", gait.frequency},
       {"@AMPLITUDE@", gait.amplitude},
       {"@OFFSET@", gait.offset},
-      {"@DURATION@", gait.duration}};
+      {"@PERIODS@", legs ? "two periods to start, and four that are judged" : "a period to start, and three that are judged"},
+      {"@DURATION@", legs ? legs->duration : gait.duration}};
   std::string text = kSkeletonScenario;
   for (const auto& [mark, value] : values) text = filled(text, mark, value);
   return text;
@@ -216,21 +223,21 @@ std::string shortfall(const std::string& file, Catalog& catalog) try {
   return error.problems().front().text;
 }
 
-/// Writes the scenario with the largest feasible one of some amplitudes. If none is feasible, the first remains, and the file
+/// Writes the scenario with the largest feasible one of some gaits. If none is feasible, the first remains, and the file
 /// states the reason.
 std::string write_scenario(const NewFileArguments& arguments, const NewRobot& robot, Catalog& catalog) {
-  constexpr double kAmplitudes[] = {0.4, 0.2, 0.1};  // rad
-  const auto text = [&](double amplitude) {
-    return scenario_text(arguments, robot, amplitude, "It runs without changes, to a verdict");
+  constexpr double kShares[] = {1, 0.5, 0.25};
+  const auto text = [&](double share) {
+    return scenario_text(arguments, robot, share, "It runs without changes, to a verdict");
   };
-  std::string file = write_new(arguments, text(kAmplitudes[0]));
+  std::string file = write_new(arguments, text(kShares[0]));
   const std::string why = shortfall(file, catalog);
   if (why.empty()) return file;
-  for (std::size_t i = 1; i < std::size(kAmplitudes); ++i) {
-    write_file(file, text(kAmplitudes[i]));
+  for (std::size_t i = 1; i < std::size(kShares); ++i) {
+    write_file(file, text(kShares[i]));
     if (shortfall(file, catalog).empty()) return file;
   }
-  write_file(file, scenario_text(arguments, robot, kAmplitudes[0], "As it stands " + why));
+  write_file(file, scenario_text(arguments, robot, kShares[0], "As it stands " + why));
   say(file, "note", "as it stands " + why);
   return file;
 }

@@ -20,7 +20,8 @@ extern const char* const kSkeletonBuild;  ///< content of CMakeLists.txt
 extern const char* const kSkeletonTest;   ///< content of test.cmake; @TEST@ is replaced by Skeleton::test
 
 extern const char* const kSkeletonModule;    ///< content of a module file
-extern const char* const kSkeletonScenario;  ///< content of a scenario of equal modules
+extern const char* const kSkeletonScenario;  ///< content of a scenario of equal modules, or of a robot with legs
+extern const char* const kSkeletonWave;      ///< content of its section `cpg`, for a wave of sines
 extern const char* const kSkeletonBench;     ///< content of the bench of a servo
 
 /// The text with every occurrence of `mark` replaced by `value`.

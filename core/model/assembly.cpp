@@ -7,6 +7,7 @@
 
 #include "core/model/docking.h"
 #include "core/model/kinematics.h"
+#include "core/model/legs.h"
 #include "core/model/robot.h"
 
 namespace gaitlab {
@@ -284,6 +285,7 @@ RobotInfo info(const Robot& robot) {
   for (const ContactElement& foot : contact_elements(robot, ContactSet::feet)) {
     result.modules[robot.bodies[foot.body].module].feet.push_back(array(kinematics.point(foot.link, foot.centre)));
   }
+  result.legs = legs_of(robot, std::vector<double>(robot.joints.size(), 0.0), Mat3::Identity());
   return result;
 }
 

@@ -21,6 +21,7 @@ struct JointInfo {
   /// about this axis if the angle is positive.
   std::array<double, 3> axis = {};
   bool driven = true;  ///< false for a joint without a motor, whose set points and torques are not used
+  double start = 0;    ///< angle at the start, rad, as far as the scenario states one
   [[nodiscard]] bool turns_freely() const { return hi == std::numeric_limits<double>::infinity(); }
 };
 
@@ -66,11 +67,28 @@ struct BodyInfo {
   std::int64_t module = 0;  ///< number of the body's module
 };
 
+/// A leg, a chain of links without branches that stands on its last link (core/model/legs.h).
+struct Leg {
+  std::string name;                  ///< `front_left`, `middle_right`, `2nd_left` (more than three on a side), `rear`
+  std::vector<std::int64_t> joints;  ///< numbers of its driven joints, from the trunk outwards
+  std::int64_t tip = -1;             ///< number of the joint that moves the last link
+  std::vector<std::int64_t> bodies;  ///< numbers of its bodies, from the trunk outwards
+  std::int64_t side = 0;             ///< 1 on the left, -1 on the right, 0 in the middle
+  std::int64_t rank = 0, count = 1;  ///< number on its side, from the front, and legs on this side
+  double angle = 0;                  ///< direction of the hip from the middle of all, rad, from forwards to the left
+  std::array<double, 3> hip = {};    ///< origin of the first joint, m, in the base frame at zero angles
+  /// Middle of the contact elements that are lowest at the start, m, in the base frame at zero angles, and their radius, m.
+  std::array<double, 3> foot = {};
+  double radius = 0;
+};
+
 /// A robot as a tree of modules and joints, with its geometry at zero angles.
 struct RobotInfo {
   std::vector<JointInfo> joints;
   std::vector<ModuleInfo> modules;
   std::vector<BodyInfo> bodies = {};
+  std::vector<Leg> legs = {};              ///< from front to rear, left before right
+  std::array<double, 3> up = {0, 0, 1};    ///< upward direction at the start, base frame
   std::vector<std::string> channels = {};  ///< names of the sensors' values in Measured::channels, such as `imu.gyro_x`
   double control_period = 0;               ///< s, as Measured::period
 };

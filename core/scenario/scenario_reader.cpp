@@ -57,6 +57,7 @@ const Scenario& ScenarioReader::read(std::string text, const std::vector<std::st
   if (problems_.size() > before) raise();  // keys of a servo that is missing or wrong would be reported as missing
   read_name(head);
   read_body();
+  start_given_ = given(root_, "initial", "angles").has_value();
   read_sections();
   raise();
   insert_torque_off(root_, scenario_);
@@ -81,6 +82,7 @@ Scenario ScenarioReader::with(const std::vector<std::string>& sets) const {
   own.raise();
   own.touched_ = TouchedSections(sections_of(sets));
   own.touched_.restart(own.scenario_);
+  own.start_given_ = given(own.root_, "initial", "angles").has_value();
   own.read_sections();
   own.raise();
   own.read_changes();
@@ -208,6 +210,7 @@ void ScenarioReader::read_sections() {
   const auto concerns = [&](const char* section) { return reads(section); };
   constexpr std::array kOfPlugins{"physics", "contact", "supply", "actuator", "controller", "cpg", "sensors"};
   if (std::ranges::any_of(kOfPlugins, concerns)) make_plugins(sections);
+  if (as_ != ReadAs::module_type) ScenarioChecks(root_, scenario_, catalog_, problems_).initial_angles();
 }
 
 void ScenarioReader::read_changes() {
@@ -242,7 +245,6 @@ void ScenarioReader::check_sections(const SectionFields& sections, JointNames jo
     problems_.add(place_of(root_, "actuator", "type"),
                   "an actuator is given, but every hinge of the robot has drive: none; remove this section");
   }
-  if (as_ != ReadAs::module_type) checks.initial_angles();
   checks.figure_joints();
   if (joints != nullptr) scenario_.figure.joints = joints_meant(scenario_.figure.joints, *joints, scenario_.groups);
   checks.base_velocity();
@@ -313,6 +315,7 @@ void ScenarioReader::make_plugins(const SectionFields& sections) {
   for (const Note* const old : {&cpg_note_, &controller_note_}) {  // of the template's plugins
     if (!old->text.empty()) std::erase(scenario_.notes, *old);
   }
+  if (!start_given_) scenario_.initial.angles = {};  // those of the template's gait
   const RobotInfo robot = plugin_info(scenario_);
   std::unique_ptr<Actuator> actuator;
   std::unique_ptr<Controller> controller;
@@ -328,7 +331,7 @@ void ScenarioReader::make_plugins(const SectionFields& sections) {
   attempt([&] {
     if (!sections.has_cpg || !sections.cpg.sound) return;
     const auto cpg = make_cpg(scenario_.cpg, robot);
-    if (!given(root_, "initial", "angles")) scenario_.initial.angles = start_of(cpg.get());
+    if (!start_given_) scenario_.initial.angles = start_of(cpg.get());
     if (!cpg || cpg->note().empty()) return;
     cpg_note_ = {{path_}, "cpg: " + cpg->note()};
     scenario_.notes.push_back(cpg_note_);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "core/model/legs.h"
 #include "core/plugin/plugin_instance.h"
 #include "core/scenario/sections.h"
 #include "core/scenario/sensor_checks.h"
@@ -160,6 +161,15 @@ std::vector<std::string> default_columns(const Scenario& scenario) {
 RobotInfo plugin_info(const Scenario& scenario) {
   RobotInfo robot = info(*scenario.robot);
   robot.control_period = scenario.control_period;
+  std::vector<double> start(robot.joints.size());
+  for (std::size_t j = 0; j < start.size(); ++j) {
+    JointInfo& joint = robot.joints[j];
+    joint.start = scenario.initial.angles[j];
+    start[j] = std::clamp(joint.start, joint.lo, joint.hi);
+  }
+  const Mat3 base = rpy(scenario.orientation);
+  robot.up = {base(2, 0), base(2, 1), base(2, 2)};
+  robot.legs = scenario.base == Base::fixed ? std::vector<Leg>() : legs_of(*scenario.robot, start, base);
   for (SensorReading& reading : sensor_readings(scenario)) {
     if (reading.replaces == Replaces::nothing) robot.channels.push_back(std::move(reading.name));
   }

@@ -4,57 +4,48 @@
 
 #include <algorithm>
 
-#include "core/plugin/robot_info.h"
+#include "core/scenario/sensor_section.h"
 
 namespace gaitlab::report {
 
-namespace {
-
-std::string place_on_side(std::size_t rank, std::size_t count) {
-  if (rank == 0) return "front";
-  if (rank + 1 == count) return "rear";
-  if (count == 3) return "middle";
-  return fmt::format("{}{}", rank + 1, rank == 1 ? "nd" : rank == 2 ? "rd" : "th");
+std::vector<Leg> legs_that_walk(const Scenario& scenario) {
+  if (!scenario.ground.exists() || scenario.contact.on == ContactSet::none) return {};
+  return plugin_info(scenario).legs;
 }
 
-}  // namespace
-
-std::vector<Leg> legs_that_walk(const Scenario& s) {
-  if (!s.ground.exists() || s.contact.on == ContactSet::none) return {};
-  std::vector<Leg> legs = find_legs(info(*s.robot));
-  if (legs.size() < 4) legs.clear();
-  return legs;
+std::string leg_name(const Leg& leg) {
+  std::string text = leg.name;
+  std::ranges::replace(text, '_', ' ');
+  return text;
 }
 
-std::vector<std::string> leg_names(const std::vector<Leg>& legs) {
-  const auto left = static_cast<std::size_t>(std::count_if(legs.begin(), legs.end(), [](const Leg& leg) { return leg.left; }));
-  std::size_t rank_left = 0;
-  std::size_t rank_right = 0;
-  std::vector<std::string> names;
-  for (const Leg& leg : legs) {
-    const std::size_t rank = leg.left ? rank_left++ : rank_right++;
-    const std::size_t count = leg.left ? left : legs.size() - left;
-    names.push_back(fmt::format("m{} {} {}", leg.modules.front(), place_on_side(rank, count), leg.left ? "left" : "right"));
+std::vector<std::size_t> own_modules(const RobotInfo& robot, const Leg& leg) {
+  std::vector<std::size_t> own;
+  for (std::size_t m = 0; m < robot.modules.size(); ++m) {
+    const std::vector<std::int64_t>& joints = robot.modules[m].joints;
+    const auto in_leg = [&](std::int64_t joint) { return std::ranges::find(leg.joints, joint) != leg.joints.end(); };
+    if (!joints.empty() && std::ranges::all_of(joints, in_leg)) own.push_back(m);
   }
-  return names;
+  return own;
 }
 
 std::vector<std::string> foot_names(const Scenario& scenario, std::span<const std::size_t> bodies) {
-  const Robot& robot = *scenario.robot;
   const std::vector<Leg> legs = legs_that_walk(scenario);
-  const std::vector<std::string> of_legs = leg_names(legs);
-  std::vector<std::size_t> leg_of(robot.modules.size(), legs.size());  // per module; legs.size() outside the legs
-  for (std::size_t i = 0; i < legs.size(); ++i) {
-    for (const std::int64_t module : legs[i].modules) leg_of[static_cast<std::size_t>(module)] = i;
-  }
-  const auto leg = [&](std::size_t body) { return leg_of[robot.bodies[body].module]; };
-  std::vector<std::size_t> feet(legs.size() + 1, 0);
-  for (const std::size_t body : bodies) ++feet[leg(body)];
+  const auto leg_of = [&](std::size_t body) {
+    return std::ranges::find_if(legs, [&](const Leg& leg) {
+      return std::ranges::find(leg.bodies, static_cast<std::int64_t>(body)) != leg.bodies.end();
+    });
+  };
   std::vector<std::string> names;
   for (const std::size_t body : bodies) {
-    const std::string& own = robot.bodies[body].name;
-    const std::size_t i = leg(body);
-    names.push_back(i == legs.size() ? own : feet[i] == 1 ? of_legs[i] : fmt::format("{}, {}", of_legs[i], own));
+    const std::string& own = scenario.robot->bodies[body].name;
+    const auto leg = leg_of(body);
+    if (leg == legs.end()) {
+      names.push_back(own);
+      continue;
+    }
+    const auto feet = std::ranges::count_if(bodies, [&](std::size_t other) { return leg_of(other) == leg; });
+    names.push_back(feet == 1 ? leg_name(*leg) : fmt::format("{}, {}", leg_name(*leg), own));
   }
   return names;
 }

@@ -350,8 +350,7 @@ TEST_F(PaperFigure, LoadsThatAreNotThereAreAnError) {
   ASSERT_EQ(draw(footfalls, "-o whole.svg").code, 0);
   fs::remove(folder / "legs/recording.h5");  // this file contains the loads
   refused(footfalls, "figure.yaml:2:17: error: run 'hexapod' lacks column load.9, which shows the stance of a leg");
-  const Result stance =
-      draw("runs: {hexapod: legs}\npanels: [{left: {columns: [com.x]}, stance: m9 front left}]\n", "-o f.svg");
+  const Result stance = draw("runs: {hexapod: legs}\npanels: [{left: {columns: [com.x]}, stance: front left}]\n", "-o f.svg");
   EXPECT_EQ(stance.code, 2);
   EXPECT_TRUE(contains(stance.err, "run 'hexapod' lacks column load.")) << stance.err;
 }

@@ -9,7 +9,7 @@ namespace gaitlab {
 
 namespace {
 
-enum class Leg { left, right2, middle };
+enum class Wing { left, right2, middle };
 enum class Short { one, two, three };
 enum class Turned { one, two };
 enum class Unnamed { one };
@@ -17,13 +17,13 @@ enum class Unnamed { one };
 }  // namespace
 
 template <>
-struct EnumNames<Leg> {
+struct EnumNames<Wing> {
   struct Row {
-    Leg value;
+    Wing value;
     const char* text;
     int feet;
   };
-  static constexpr Row kTable[] = {{Leg::left, "left", 1}, {Leg::right2, "right", 2}, {Leg::middle, "in the middle", 3}};
+  static constexpr Row kTable[] = {{Wing::left, "left", 1}, {Wing::right2, "right", 2}, {Wing::middle, "in the middle", 3}};
 };
 template <>
 struct EnumNames<Short> {
@@ -37,28 +37,28 @@ struct EnumNames<Turned> {
 namespace {
 
 TEST(EnumNames, ValueToNameAndBack) {
-  EXPECT_STREQ(name_of(Leg::right2), "right");
-  EXPECT_EQ(named<Leg>("in the middle"), Leg::middle);
-  EXPECT_EQ(named<Leg>("middle"), std::nullopt);
-  EXPECT_EQ(named<Leg>(""), std::nullopt);
-  EXPECT_EQ(std::vector<std::string>(enum_names<Leg>().begin(), enum_names<Leg>().end()),
+  EXPECT_STREQ(name_of(Wing::right2), "right");
+  EXPECT_EQ(named<Wing>("in the middle"), Wing::middle);
+  EXPECT_EQ(named<Wing>("middle"), std::nullopt);
+  EXPECT_EQ(named<Wing>(""), std::nullopt);
+  EXPECT_EQ(std::vector<std::string>(enum_names<Wing>().begin(), enum_names<Wing>().end()),
             (std::vector<std::string>{"left", "right", "in the middle"}));
 }
 
-TEST(EnumNames, ATableHasRoomForFurtherColumns) { EXPECT_EQ(enum_row(Leg::middle).feet, 3); }
+TEST(EnumNames, ATableHasRoomForFurtherColumns) { EXPECT_EQ(enum_row(Wing::middle).feet, 3); }
 
 TEST(EnumNames, ATableThatLacksAValueOrHasAnotherOrderIsNotWhole) {
-  EXPECT_TRUE(all_named<Leg>());
+  EXPECT_TRUE(all_named<Wing>());
   EXPECT_FALSE(all_named<Short>());
   EXPECT_FALSE(all_named<Turned>());
   EXPECT_FALSE(NamedEnum<Unnamed>);
 }
 
 TEST(EnumNames, CompilersTellEnumeratorsFromOtherValues) {
-  EXPECT_TRUE(is_enumerator<Leg::right2>());  // name with a digit at the end
-  EXPECT_TRUE(is_enumerator<static_cast<Leg>(2)>());
-  EXPECT_FALSE(is_enumerator<static_cast<Leg>(3)>());
-  EXPECT_FALSE(is_enumerator<static_cast<Leg>(10)>());
+  EXPECT_TRUE(is_enumerator<Wing::right2>());  // name with a digit at the end
+  EXPECT_TRUE(is_enumerator<static_cast<Wing>(2)>());
+  EXPECT_FALSE(is_enumerator<static_cast<Wing>(3)>());
+  EXPECT_FALSE(is_enumerator<static_cast<Wing>(10)>());
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// Tests of the set points of the tripod gait: continuous for every duty factor and any number of legs.
+// Tests of legs and of the gaits of legged robots: set points of tripod, which never jump, and feet of `legs`, which keep their
+// ways.
 #include "cpg/tripod.h"
 
 #include <gtest/gtest.h>
@@ -6,9 +7,13 @@
 #include <array>
 #include <numbers>
 
+#include "core/model/kinematics.h"
+#include "core/model/legs.h"
 #include "core/model/robot.h"
 #include "core/robot_files/module_file.h"
 #include "core/scenario/scenario.h"
+#include "core/settings/node.h"
+#include "cpg/legs.h"
 #include "tests/folders.h"
 
 namespace gaitlab::cpg {
@@ -91,33 +96,175 @@ TEST(Tripod, AHingeAboutTheOppositeAxisTurnsTheOtherWay) {
   }
 }
 
-TEST(Tripod, ASideDockOnALegIsItsKnee) {
-  std::vector<std::array<int, 5>> rows = kHexapod;
-  rows.push_back({0, 11, 5, 5, 0});  // module 11, docked sideways to leg 5
-  const std::vector<Leg> legs = find_legs(robot_of(rows));
-  EXPECT_EQ(legs.size(), 6U);
+// --- legs -------------------------------------------------------------------------------------------------------------------
+
+/// A quadruped: a trunk with four legs of three hinges (abduction about x, hip and knee about y), on spheres.
+Robot quadruped() {
+  std::string bodies = "{trunk: {mass: 5, inertia: [0.02, 0.06, 0.07, 0, 0, 0], shape: [{box: [0.4, 0.1, 0.1]}]}";
+  std::string hinges;
+  for (const char* const leg : {"a", "b", "c", "d"}) {
+    const double x = leg[0] < 'c' ? 0.2 : -0.2;
+    const double y = leg[0] % 2 == 1 ? 0.1 : -0.1;
+    for (const char* const part : {"hip", "thigh"})
+      bodies += std::string(", ") + leg + part + ": {mass: 0.4, inertia: [0.001, 0.001, 0.001, 0, 0, 0]}";
+    bodies += std::string(", ") + leg +
+              "calf: {mass: 0.2, inertia: [0.001, 0.001, 0.001, 0, 0, 0], shape: [{sphere: 0.02, origin: [0, 0, -0.2]}]}";
+    const auto hinge = [&](const char* name, const std::string& parent, const char* child, const std::string& rest) {
+      hinges += std::string(hinges.empty() ? "" : ", ") + "{name: " + leg + name + ", parent: " + parent + ", child: " + leg +
+                child + ", " + rest + "}";
+    };
+    hinge("roll", "trunk", "hip",
+          "origin: [" + std::to_string(x) + ", " + std::to_string(y) + ", 0], axis: [1, 0, 0], range: [-0.8, 0.8]");
+    hinge("pitch", leg + std::string("hip"), "thigh",
+          "origin: [0, " + std::to_string(y / 2) + ", 0], axis: [0, 1, 0], range: [-1.5, 3]");
+    hinge("knee", leg + std::string("thigh"), "calf", "origin: [0, 0, -0.2], axis: [0, 1, 0], range: [-2.6, -0.6]");
+  }
+  Problems problems;
+  const Node document = parse_yaml(
+      "{gaitlab_module: 1, name: dog, bodies: " + bodies + "}, hinges: [" + hinges + "], contacts: {all: shapes}}", "dog.yaml");
+  const ModuleType type = read_module(document, true, problems);
+  problems.raise();
+  return assemble({type}, {0}, {});
 }
 
-TEST(Tripod, AKneeNumberedBelowItsHipIsAKnee) {
-  // A leg has two modules in a row and a third module docked sideways to the second. The second robot has the same legs with
-  // reversed numbers.
-  std::vector<std::array<int, 5>> rows = kQuadruped;
-  rows.push_back({1, 7, 4, 3, 0});
-  rows.push_back({0, 8, 5, 7, 0});
-  const std::vector<Leg> legs = find_legs(robot_of(rows));
-  ASSERT_EQ(legs.size(), 4U);
-  for (auto& row : rows) {
-    for (const std::size_t i : {1U, 3U}) row[i] = row[i] == 0 ? 0 : 9 - row[i];
+std::vector<std::string> names_of(const std::vector<Leg>& legs) {
+  std::vector<std::string> names;
+  for (const Leg& leg : legs) names.push_back(leg.name);
+  return names;
+}
+using Names = std::vector<std::string>;
+
+TEST(LegsOf, RobotsHaveNamesFromFrontToRear) {
+  EXPECT_EQ(names_of(info(quadruped()).legs), (Names{"front_left", "front_right", "rear_left", "rear_right"}));
+  const RobotInfo hexapod = robot_of(kHexapod);
+  EXPECT_EQ(names_of(hexapod.legs),
+            (Names{"front_left", "front_right", "middle_left", "middle_right", "rear_left", "rear_right"}));
+  std::vector<std::int64_t> modules;
+  for (const Leg& leg : hexapod.legs) {
+    EXPECT_EQ(leg.joints.size(), 2U);
+    modules.push_back(hexapod.bodies[static_cast<std::size_t>(leg.bodies.back())].module);
   }
-  const std::vector<Leg> turned = find_legs(robot_of(rows));
-  ASSERT_EQ(turned.size(), 4U);
-  for (std::size_t i = 0; i < legs.size(); ++i) {
-    EXPECT_EQ(turned[i].modules.size(), legs[i].modules.size()) << i;
-    EXPECT_EQ(turned[i].modules.front(), 9 - legs[i].modules.front()) << i;
-    EXPECT_EQ(turned[i].left, legs[i].left) << i;
-    EXPECT_EQ(turned[i].x, legs[i].x) << i;
-    EXPECT_EQ(turned[i].length, legs[i].length) << i;
+  EXPECT_EQ(modules, (std::vector<std::int64_t>{9, 10, 7, 8, 5, 6}));
+}
+
+TEST(LegsOf, TheYawOfTheStartChangesNothing) {
+  const Robot robot = quadruped();
+  const std::vector<double> zero(robot.joints.size(), 0.0);
+  const std::vector<Leg> straight = legs_of(robot, zero, Mat3::Identity());
+  for (const double yaw : {0.7, 1.6, 3.1, -2.0}) {
+    const std::vector<Leg> turned = legs_of(robot, zero, rpy({0, 0, yaw}));
+    EXPECT_EQ(names_of(turned), names_of(straight));
+    for (std::size_t l = 0; l < turned.size(); ++l) EXPECT_EQ(turned[l].joints, straight[l].joints);
   }
+}
+
+TEST(LegsOf, ASnakeAndATwoArmedRobotOnTheGroundHaveNone) {
+  EXPECT_TRUE(robot_of({{1, 1, 4, 0, 0}, {1, 2, 4, 1, 0}, {1, 3, 4, 2, 0}}).legs.empty());
+  EXPECT_TRUE(robot_of({{1, 1, 4, 0, 0}, {4, 2, 1, 0, 0}}).legs.empty()) << "module 0 in the middle";
+}
+
+TEST(LegsOf, ALegInTheAirIsOneOfItsKind) {
+  const Robot robot = quadruped();
+  std::vector<double> q(robot.joints.size(), 0.0);
+  const std::vector<Leg> all = legs_of(robot, q, Mat3::Identity());
+  for (const std::int64_t joint : all[1].joints) q[static_cast<std::size_t>(joint)] = 0.7;
+  EXPECT_EQ(names_of(legs_of(robot, q, Mat3::Identity())), names_of(all));
+}
+
+/// World position of a foot's centre in the frame of the base, by the kinematics of the engines, not by that of the gait.
+Vec3 foot_at(const Robot& robot, const Leg& leg, const std::vector<double>& q) {
+  RobotState state;
+  state.q = q;
+  state.qd.assign(q.size(), 0);
+  Kinematics k(robot);
+  k.place(robot, state);
+  const auto link = robot.joints[static_cast<std::size_t>(leg.tip)].link;
+  return k.point(link, {0, 0, -0.2});
+}
+
+/// In stance, every foot moves as the ground does under a body with the speeds of the settings: x' = -v - turn x (x - c).
+TEST(Legs, FeetOnTheGroundMoveAgainstTheBody) {
+  const Robot robot = quadruped();
+  const RobotInfo known = info(robot);
+  for (const Gait gait :
+       {Gait::trot, Gait::pace, Gait::bound, Gait::walk, Gait::crawl, Gait::wave, Gait::ripple, Gait::gallop}) {
+    Legs::Settings s;
+    s.frequency = 2;
+    s.model.gait = gait;
+    s.model.speed = 0.2;
+    s.model.side = 0.05;
+    s.model.turn = 0.3;
+    s.model.lean = 0;
+    const Legs made(known, s);
+    const double duty = duty_of(gait, known.legs);
+    const std::vector<double> phases = phases_of(gait, known.legs);
+    std::vector<double> q(robot.joints.size());
+    made.output(0, {}, q);
+    Vec3 middle = Vec3::Zero();
+    for (const Leg& leg : known.legs) middle += foot_at(robot, leg, q) / 4;
+    for (std::size_t l = 0; l < known.legs.size(); ++l) {
+      double lowest = 1, highest = -1;
+      for (int n = 0; n < 64; ++n) {
+        const double share = (n + 0.5) / 64;                      // of the cycle of this leg
+        const double t = (10 + share - phases[l]) / s.frequency;  // the ramp has ended
+        constexpr double kStep = 1e-3;                            // s
+        made.output(t, {}, q);
+        const Vec3 x = foot_at(robot, known.legs[l], q);
+        lowest = std::min(lowest, x.z());
+        highest = std::max(highest, x.z());
+        if (share > duty - 0.02 || share < 0.02) continue;
+        made.output(t + kStep, {}, q);
+        const Vec3 speed = (foot_at(robot, known.legs[l], q) - x) / kStep;
+        const Vec3 ground = -Vec3(0.2, 0.05, 0) - Vec3(0, 0, 0.3).cross(x - middle);
+        // Set points are linear between 128 samples, over which the chord of a leg of 0.3 m deviates by less than 1 %.
+        EXPECT_LT((speed - ground).norm(), 0.005) << kGaitNames[static_cast<std::size_t>(gait)] << " leg " << l << " " << share;
+        EXPECT_LT(std::abs(x.z() - lowest), 3e-4);
+      }
+      EXPECT_NEAR(highest - lowest, 0.1 * (0.1 / 2 + 0.4) * 0.75, 0.003) << "lift: a tenth of the height of the stance";
+    }
+  }
+}
+
+TEST(Legs, StartsInItsStanceAndRepeats) {
+  const Robot robot = quadruped();
+  const RobotInfo known = info(robot);
+  Legs::Settings s;
+  s.model.stride = 0.1;
+  const Legs made(known, s);
+  std::vector<double> q(robot.joints.size()), later(robot.joints.size());
+  made.output(0, {}, q);
+  for (std::size_t j = 0; j < q.size(); ++j) {
+    EXPECT_GE(q[j], known.joints[j].lo + 0.149) << known.joints[j].name;
+    EXPECT_LE(q[j], known.joints[j].hi - 0.149) << known.joints[j].name;
+  }
+  double low = 1, high = -1;
+  for (const Leg& leg : known.legs) {
+    low = std::min(low, foot_at(robot, leg, q).z());
+    high = std::max(high, foot_at(robot, leg, q).z());
+  }
+  EXPECT_LT(high - low, 1e-4) << "all feet are on one plane";
+  RobotInfo stated = known;  // the angles of the start are the stance
+  for (std::size_t j = 0; j < q.size(); ++j) stated.joints[j].start = q[j] + (j == 0 ? 0.05 : 0);
+  Legs(stated, s).output(0, {}, later);
+  for (std::size_t j = 0; j < q.size(); ++j) EXPECT_EQ(later[j], stated.joints[j].start);
+  made.output(3.21, {}, q);
+  made.output(4.21, {}, later);  // a period of 1 s later
+  for (std::size_t j = 0; j < q.size(); ++j) EXPECT_NEAR(later[j], q[j], 1e-9);
+}
+
+TEST(Legs, RefusesWhatCannotWalk) {
+  const RobotInfo known = info(quadruped());
+  Legs::Settings s;
+  s.model.stride = 0.1;
+  s.model.speed = 0.1;
+  EXPECT_THROW(Legs(known, s), SettingError);
+  RobotInfo five = known;
+  five.legs.push_back(five.legs[0]);
+  EXPECT_THROW(phases_of(Gait::trot, five.legs), std::invalid_argument);
+  EXPECT_NO_THROW(phases_of(Gait::wave, five.legs));
+  RobotInfo none = known;
+  none.legs.clear();
+  EXPECT_THROW(Legs(none, {}), std::invalid_argument);
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 // are generous limits of an upright walk with alternating supporting legs and lifted feet. The statics are closed forms.
 #include <algorithm>
 
-#include "core/plugin/legs.h"
 #include "tests/labels.h"
 #include "tests/program/fixture.h"
 
@@ -16,7 +15,7 @@ constexpr double kGravity = 9.81;
 
 struct Walked {
   explicit Walked(Scenario s)
-      : scenario(std::move(s)), record(run(scenario)), table(record.trace), legs(find_legs(info(*scenario.robot))) {}
+      : scenario(std::move(s)), record(run(scenario)), table(record.trace), legs(info(*scenario.robot).legs) {}
   Scenario scenario;
   Recording record;
   Table table;
@@ -28,7 +27,9 @@ struct Walked {
   [[nodiscard]] std::vector<std::size_t> foot(const Leg& leg) const {
     std::vector<std::size_t> found;
     for (std::size_t c = 0; c < contacts.size(); ++c) {
-      if (scenario.robot->bodies[contacts[c].body].module == static_cast<std::size_t>(leg.modules.back())) found.push_back(c);
+      if (scenario.robot->bodies[contacts[c].body].module ==
+          scenario.robot->bodies[static_cast<std::size_t>(leg.bodies.back())].module)
+        found.push_back(c);
     }
     return found;
   }
@@ -65,7 +66,7 @@ struct Walked {
   }
   /// True if a leg stands in the first half of a cycle. Numbered from the front, every second leg of a side stands, and on the
   /// other side the legs in between.
-  [[nodiscard]] bool stands_first(std::size_t leg) const { return (leg / 2 + (legs[leg].left ? 1 : 0)) % 2 == 0; }
+  [[nodiscard]] bool stands_first(std::size_t leg) const { return (leg / 2 + (legs[leg].side > 0 ? 1 : 0)) % 2 == 0; }
 };
 
 // The walks use engine articulated, because bullet takes forty times as long; WalkOfTwoEngines compares the two engines.
@@ -111,7 +112,9 @@ void expect_walks(const Walked& w, double travel_a_second) {
 TEST(Walk, HexapodWalksUprightOnItsTripods) {
   ASSERT_EQ(hexapod().legs.size(), 6U);
   std::vector<std::int64_t> modules;
-  for (const Leg& leg : hexapod().legs) modules.push_back(leg.modules[0]);
+  for (const Leg& leg : hexapod().legs)
+    modules.push_back(
+        static_cast<std::int64_t>(hexapod().scenario.robot->bodies[static_cast<std::size_t>(leg.bodies[0])].module));
   EXPECT_EQ(modules, (std::vector<std::int64_t>{9, 10, 7, 8, 5, 6}));  // from the front, left before right
   expect_walks(hexapod(), 0.025);                                      // at least 0.5 m in 20 s
 }

@@ -54,7 +54,7 @@ defect "PID: the derivative comes a tick late" controllers/pid.cpp \
 defect "docking: orientations 2 and 3 exchanged" core/model/assembly.cpp 's/\{0, 1\}, \{-1, 0\}, \{0, -1\}/{0, 1}, {0, -1}, {-1, 0}/'
 defect "CPG: nothing couples the last joint" cpg/phase_oscillator.cpp \
   's/const double weight = s_\.model/const double weight = to + 1 == joints_ ? 0.0 : s_.model/'
-defect "legs: found in the order of numbers" core/plugin/legs.h 's/std::reverse\(order\.begin\(\) \+ first, order\.end\(\)\)/static_cast<void>(first)/'
+defect "legs: the right ones come first" core/model/legs.cpp 's/legs\[a\]\.side > legs\[b\]\.side/legs[a].side < legs[b].side/'
 defect "articulated: no Coriolis term in the recursion" physics_articulated/body.h 's/p \+= I \* l\.c;//'
 defect "articulated: the bias in contacts' resistances is the base's" physics_articulated/body.h \
   's/l\.bias = parent\.bias \+ l\.c;/l.bias = parent.bias;/'

@@ -204,15 +204,16 @@ class CurvesOfPanel final : public PaperPanel {
     }
     const PaperRun& run = *runs.front();
     const std::vector<Leg> legs = legs_that_walk(run.scenario);
-    const std::vector<std::string> names = leg_names(legs);
+    std::vector<std::string> names;
+    std::ranges::transform(legs, std::back_inserter(names), leg_name);
     const auto leg = std::ranges::find(names, panel_.stance);
     if (leg == names.end()) {
-      source.problem({"stance"}, names.empty() ? "`stance` needs a robot that walks on four legs or more"
+      source.problem({"stance"}, names.empty() ? "`stance` needs a robot that walks on legs"
                                                : "no leg " + in_quotes(panel_.stance) + offer(panel_.stance, names, "legs"));
       return;
     }
     const std::size_t number = static_cast<std::size_t>(leg - names.begin());
-    if (const std::string lacks = lacking_load(run.scenario, run.recording, {legs[number]}); !lacks.empty()) {
+    if (const std::string lacks = loads_of(run.scenario, run.recording, {legs[number]}).lacks; !lacks.empty()) {
       source.problem({"stance"},
                      fmt::format("run {} lacks column {}, which shows the stance of a leg", in_quotes(run.name), lacks));
       return;
@@ -355,7 +356,7 @@ void curves_fields(PanelRecipe& panel, Fields& f) {
   f.texts("runs", panel.runs, "Runs whose curves are drawn, by name; default: all.");
   f.group("left", panel.left, "Curves of the left axis.");
   f.group("right", panel.right, "Curves of the right axis; the zeros of both axes coincide if that wastes little paper.");
-  f.text("stance", panel.stance, "Leg whose stance is shaded, named as in the footfalls of figure.svg: m5 front left.");
+  f.text("stance", panel.stance, "Leg whose stance is shaded, named as in the footfalls of figure.svg: front left.");
   f.text("motor", panel.motor,
          "Joint whose motor is shown: the time at a voltage or current limit is shaded, and a line marks the motor's torque at "
          "rest if the torque curve comes near it.");

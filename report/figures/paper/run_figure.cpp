@@ -97,9 +97,9 @@ std::vector<Drawn> drawn_joints(const Scenario& scenario, const Summary& summary
   }
   if (!drawn.empty()) return drawn;
   if (legs.empty()) return {{worst, told(worst)}};
-  const std::size_t spine = central_spine_joint(info(*scenario.robot), legs);
+  const std::optional<std::size_t> spine = central_spine_joint(info(*scenario.robot), legs);
   if (worst != spine) drawn.push_back({worst, told(worst)});
-  drawn.push_back({spine, std::string(", middle of the spine") + told(spine), kLeastAngle});
+  if (spine) drawn.push_back({*spine, std::string(", middle of the spine") + told(*spine), kLeastAngle});
   return drawn;
 }
 
@@ -138,19 +138,21 @@ PanelRecipe chart(const Scenario& scenario, const Recording& r, const Summary& s
 
 }  // namespace
 
-std::size_t central_spine_joint(const RobotInfo& robot, const std::vector<Leg>& legs) {
-  std::vector<bool> in_leg(robot.modules.size(), false);
-  for (const Leg& leg : legs) {
-    for (const std::int64_t m : leg.modules) in_leg[static_cast<std::size_t>(m)] = true;
+std::optional<std::size_t> central_spine_joint(const RobotInfo& robot, const std::vector<Leg>& legs) {
+  const auto in_leg = [&](std::size_t j) {
+    return std::ranges::any_of(
+        legs, [&](const Leg& leg) { return std::ranges::find(leg.joints, static_cast<std::int64_t>(j)) != leg.joints.end(); });
+  };
+  std::vector<std::size_t> joints;
+  for (std::size_t j = 0; j < robot.joints.size(); ++j) {
+    if (!in_leg(j)) joints.push_back(j);
   }
-  std::vector<std::size_t> joints(robot.joints.size());
-  std::iota(joints.begin(), joints.end(), 0);
+  if (joints.empty()) return {};
   const auto keep = [&](const auto& test) {
     std::vector<std::size_t> kept;
     std::copy_if(joints.begin(), joints.end(), std::back_inserter(kept), test);
     if (!kept.empty()) joints = kept;
   };
-  keep([&](std::size_t j) { return !in_leg[static_cast<std::size_t>(robot.joints[j].module)]; });
   const auto x = [&](std::size_t j) { return robot.joints[j].origin[0]; };
   const auto [rear, front] =
       std::minmax_element(joints.begin(), joints.end(), [&](std::size_t a, std::size_t b) { return x(a) < x(b); });
@@ -175,7 +177,7 @@ std::string run_figure(const Scenario& scenario, const Recording& r, const Summa
       PanelRecipe panel = chart(scenario, r, summary, each, from);
       if (!panel.left.columns.empty() || !panel.right.columns.empty()) recipe.panels.push_back(std::move(panel));
     }
-    if (!legs.empty() && lacking_load(scenario, r, legs).empty()) {
+    if (!legs.empty() && loads_of(scenario, r, legs).lacks.empty()) {
       PanelRecipe& panel = recipe.panels.emplace_back();
       panel.kind = &kFootfallsPanel;
       panel.from = from;

@@ -1,9 +1,10 @@
 // The figure of a run, written as figure.svg: a recipe of the panels that suit the robot.
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "core/plugin/legs.h"
+#include "core/plugin/robot_info.h"
 #include "report/analysis/summary.h"
 
 namespace gaitlab::report {
@@ -13,15 +14,16 @@ namespace gaitlab::report {
 /// show the robot from the side of its path, or from above if its joints turn about the vertical. The views are one second
 /// apart at the end of the run. With a limit cycle they are a fifth of its last period apart, at most 0.8 s.
 ///
-/// For a robot that walks (four or more legs by find_legs, contact elements, a ground) the figure also contains the central
+/// For a robot that walks (legs, contact elements, a ground) the figure also contains the central
 /// spine joint (the paper's figure 14) and the footfalls of the legs. Without a limit cycle its views cover the last 2 s.
 std::string run_figure(const Scenario& scenario, const Recording& record, const Summary& summary);
 
-/// Index of the central spine joint, which is the joint marked in the paper's figure 13. The spine is all modules outside the
+/// Index of the central spine joint, which is the joint marked in the paper's figure 13. The spine is all joints outside the
 /// legs. Candidates are the spine joints that turn about y within 25 degrees at zero angles and therefore bend the spine up and
 /// down, or all spine joints if there are none. The result is the candidate nearest, along x, to the middle between the
 /// foremost and the rearmost spine joint; among equally near ones (to a millimetre) the foremost. The most loaded spine joint
-/// would be unsuitable: in the hexapod it is the foremost one, where the front legs are docked.
-std::size_t central_spine_joint(const RobotInfo& robot, const std::vector<Leg>& legs);
+/// would be unsuitable: in the hexapod it is the foremost one, where the front legs are docked. Nothing if all joints are in
+/// legs.
+std::optional<std::size_t> central_spine_joint(const RobotInfo& robot, const std::vector<Leg>& legs);
 
 }  // namespace gaitlab::report

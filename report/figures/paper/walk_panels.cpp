@@ -23,12 +23,10 @@ class FootfallsOfPanel final : public PaperPanel {
     const std::vector<Leg> legs = legs_that_walk(run.scenario);
     const std::vector<double> time = row_times(run.recording);
     if (legs.empty() || time.empty()) {
-      source.problem({"kind"},
-                     "footfalls need four legs or more; a leg is a chain of modules, docked to the left or right (+-y) of a "
-                     "spine, that ends in contact elements");
+      source.problem({"kind"}, "footfalls need a robot with legs (docs/modules.md), and a run with rows");
       return;
     }
-    if (const std::string lacks = lacking_load(run.scenario, run.recording, legs); !lacks.empty()) {
+    if (const std::string lacks = loads_of(run.scenario, run.recording, legs).lacks; !lacks.empty()) {
       source.problem({"kind"},
                      fmt::format("run {} lacks column {}, which shows the stance of a leg", in_quotes(run.name), lacks));
       return;

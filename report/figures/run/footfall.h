@@ -15,7 +15,7 @@ struct Stance {
 
 /// One row of the diagram.
 struct Footfall {
-  std::string name;             ///< name of the leg: `m9 front left`
+  std::string name;             ///< name of the leg: `front left`
   std::vector<Stance> stances;  ///< in order of time, separated by gaps
   double duty_factor = 0;       ///< printed at the right end of the row
 };

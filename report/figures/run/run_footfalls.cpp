@@ -4,35 +4,66 @@
 
 #include <algorithm>
 
+#include "report/analysis/loads.h"
+
 namespace gaitlab::report {
 
-std::string lacking_load(const Scenario& scenario, const Recording& r, const std::vector<Leg>& legs) {
-  const std::vector<ContactElement> elements = contact_elements(*scenario.robot, scenario.contact.on);
-  for (const Leg& leg : legs) {
-    for (const std::int64_t m : leg.modules) {
-      const auto of_module = [&](const ContactElement& element) {
-        return scenario.robot->bodies[element.body].module == static_cast<std::size_t>(m);
-      };
-      std::string column = fmt::format("load.{}", m);
-      if (std::ranges::any_of(elements, of_module) && r.series(column).empty()) return column;
-    }
+namespace {
+
+/// Columns whose sum is the load of a leg, and the table that contains them.
+struct LegColumns {
+  std::vector<std::string> names;
+  bool of_bodies = false;
+};
+
+LegColumns columns_of(const Robot& robot, const RobotInfo& info, const Leg& leg, const std::vector<ContactElement>& elements) {
+  const auto has_elements = [&](const auto& part_of, std::size_t part) {
+    return std::ranges::any_of(elements, [&](const ContactElement& element) { return part_of(element) == part; });
+  };
+  LegColumns found;
+  for (const std::size_t m : own_modules(info, leg)) {
+    if (has_elements([&](const ContactElement& element) { return robot.bodies[element.body].module; }, m))
+      found.names.push_back(fmt::format("load.{}", m));
   }
-  return "";
+  if (!found.names.empty()) return found;
+  found.of_bodies = true;
+  for (const std::int64_t body : leg.bodies) {
+    const auto b = static_cast<std::size_t>(body);
+    if (has_elements([](const ContactElement& element) { return element.body; }, b))
+      found.names.push_back(fmt::format("foot.{}.fz", robot.bodies[b].name));
+  }
+  return found;
+}
+
+}  // namespace
+
+LegLoads loads_of(const Scenario& scenario, const Recording& r, const std::vector<Leg>& legs) {
+  const std::vector<ContactElement> elements = contact_elements(*scenario.robot, scenario.contact.on);
+  const RobotInfo robot = info(*scenario.robot);
+  const Trace at_ticks = loads_at_rows(r);
+  LegLoads all;
+  for (const Leg& leg : legs) {
+    const LegColumns columns = columns_of(*scenario.robot, robot, leg, elements);
+    std::vector<double> load(r.rows(), 0.0);
+    for (const std::string& name : columns.names) {
+      const std::size_t at = columns.of_bodies ? at_ticks.find(name) : 0;
+      const bool missing = columns.of_bodies ? at == at_ticks.columns.size() || at_ticks.rows() == 0 : r.series(name).empty();
+      if (missing) return {{}, name};
+      const std::vector<double> part = columns.of_bodies ? Series(at_ticks, at).values() : r.series(name).values();
+      for (std::size_t k = 0; k < load.size(); ++k) load[k] += part[k];
+    }
+    all.loads.push_back(std::move(load));
+  }
+  return all;
 }
 
 std::vector<Footfall> footfalls(const Scenario& scenario, const Recording& r, const std::vector<Leg>& legs,
                                 std::span<const double> time, double from) {
   const double weight = scenario.robot->mass * scenario.physics.gravity.norm();
-  const std::vector<std::string> names = leg_names(legs);
+  const LegLoads found = loads_of(scenario, r, legs);
   std::vector<Footfall> rows;
-  for (std::size_t i = 0; i < legs.size(); ++i) {
-    if (!lacking_load(scenario, r, {legs[i]}).empty()) continue;  // a leg without data must not appear unloaded
-    std::vector<double> load(time.size(), 0.0);
-    for (const std::int64_t m : legs[i].modules) {
-      const Series of_module = r.series(fmt::format("load.{}", m));
-      for (std::size_t k = 0; k < of_module.size(); ++k) load[k] += of_module[k];
-    }
-    Footfall row{names[i], stances(time, load, kStands * weight)};
+  for (std::size_t i = 0; i < found.loads.size(); ++i) {
+    Footfall row{leg_name(legs[i]), stances(time, found.loads[i], kStands * weight)};
     row.duty_factor = duty_factor(row.stances, from, time.back());
     rows.push_back(std::move(row));
   }

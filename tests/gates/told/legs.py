@@ -1,77 +1,112 @@
-"""Legs of a robot and their names, `m5 rear left`: docs/modules.md (legs), docs/report.md (`feet`).
-A leg is a chain without branches that is docked sideways to the spine and ends in feet below its last joint about y."""
+"""Legs of a robot and their names, `rear left`: docs/modules.md (legs), docs/report.md (`feet`)."""
 import numpy as np
 
-SIDEWAYS, ABOUT_Y, BESIDE = 0.7, 0.9, 1e-3  # two cosines; tolerance for two legs side by side, m
+STANDS, EQUAL, MIDLINE, HUB, FLAT = 0.1, 0.01, 0.15, 0.05, 1e-3  # share of the height; m; two shares of widest and longest; m
 
 
 class Legs:
-    """Legs of a robot. `of` is {module: name of its leg} and omits modules that belong to no leg."""
+    """Legs of a robot. `of` is {body: name of its leg} and omits bodies that belong to no leg."""
 
     def __init__(self, record):
         self.robot, self.of = record.robot, {}
-        robot = record.robot
-        docks = {int(row[1]): row for row in record.scenario["robot"].get("docks", [])}
-        children = {k: [m for m, row in docks.items() if int(row[3]) == k] for k in range(robot.count)}
-        still, none = np.zeros((1, 3)), np.zeros((1, len(robot.joint_names)))
-        self.motion = robot.move(still, np.eye(3)[None], still, still, none, none)
-        found, taken = [], set()
-        for m in self.outwards(children):
-            if m not in docks or m in taken or abs(self.normal(docks[m])[1]) < SIDEWAYS:
+        if record.scenario["robot"]["base"] == "fixed" or record.ground == "none" or record.scenario["contact"]["on"] == "none":
+            return
+        still = np.zeros((1, 3))
+        base = record.rotation()[:1]
+        q = record.pose("angle")[:1]
+        self.at = self.robot.move(still, base, still, still, q, np.zeros_like(q))
+        self.zero = self.robot.move(still, np.eye(3)[None], still, still, np.zeros_like(q), np.zeros_like(q))
+        self.gather()
+        chains = self.standing()
+        if chains:
+            self.name(chains, base[0][2])
+
+    def gather(self):
+        """Links: bodies that docks hold together, by the joint that moves them (None: the base)."""
+        self.link, self.parent = {}, {None: None}
+        for body in self.robot.order:
+            self.link[body.name] = self.link[body.parent.name] if body.parent and body.joint is None else body.joint
+            if body.joint is not None:
+                self.parent[body.joint] = self.link[body.parent.name]
+        self.children = {link: [one for one in self.parent if one is not None and self.parent[one] == link] for link in self.parent}
+        self.low, high, self.elements = {}, [], {}
+        for body, centre, radius in self.robot.contacts("all").values():
+            position, rotation = self.at[body][0][0], self.at[body][1][0]
+            z = (position + rotation @ centre)[2] - radius
+            link = self.link[body]
+            self.low[link] = min(z, self.low.get(link, np.inf))
+            self.elements.setdefault(link, []).append((body, centre, radius, z))
+            high.append(z + 2 * radius)
+        self.ground = min(self.low.values()) + STANDS * (max(high) - min(self.low.values())) if self.low else 0
+
+    def wheel(self, link):
+        low, upper = self.robot.ranges[link]
+        if np.isfinite(low) or np.isfinite(upper) or len(self.elements[link]) != 1:
+            return False
+        body, centre, radius, _ = self.elements[link][0]
+        origin, axis = self.zero.hinge[link]
+        position, rotation = self.zero[body][0][0], self.zero[body][1][0]
+        return radius > 0 and np.linalg.norm(np.cross(position + rotation @ centre - origin[0], axis[0])) < FLAT
+
+    def chains(self):
+        """Chains of links from the trunk outwards, each with the distances between its joints."""
+        for end in self.parent:
+            if end is None or self.children[end] or end not in self.low or self.wheel(end):
                 continue
-            chain = [m]
-            while len(children[chain[-1]]) == 1:
-                chain += children[chain[-1]]
-            joints, feet = self.joints(chain), self.feet(chain[-1])
-            if len(joints) < 2 or not len(feet):
-                continue
-            hip, ankle = joints[0], joints[-1]
-            if hip[2] > ankle[2] > feet[:, 2].min():
-                found.append((hip[0], hip[1] > 0, chain))
-                taken |= self.below(m, children)
-        if len(found) >= 4 and record.ground != "none" and record.scenario["contact"]["on"] != "none":
-            self.name(found)
+            chain = [end]
+            while self.parent[chain[0]] is not None and len(self.children[self.parent[chain[0]]]) == 1:
+                chain.insert(0, self.parent[chain[0]])
+            if any(self.robot.driven[joint] for joint in chain):
+                at = [self.zero.hinge[joint][0][0] for joint in chain]
+                yield chain, [np.linalg.norm(b - a) for a, b in zip(at, at[1:])]
 
-    def outwards(self, children):
-        """Modules ordered so that every parent is before its children."""
-        out, queue = [], [0]
-        while queue:
-            out.append(queue.pop(0))
-            queue += children[out[-1]]
-        return out
-
-    def below(self, module, children):
-        return {module}.union(*(self.below(child, children) for child in children[module]))
-
-    def normal(self, row):
-        """Outward normal of the parent's face at a dock, in the frame of the base."""
-        face = self.robot.face(int(row[3]), row[2])
-        return self.motion[f"m{int(row[3])}/{face['body']}"][1][0] @ np.array(face["normal"], float)
-
-    def joints(self, chain):
-        """Positions of the driven joints about y of a leg, from the spine outwards."""
-        at = []
-        for k, name in enumerate(self.robot.joint_names):
-            origin, axis = self.motion.hinge[k]
-            if int(name[1:].split("/")[0]) in chain and self.robot.driven[k] and abs(axis[0, 1]) > ABOUT_Y:
-                at.append((chain.index(int(name[1:].split("/")[0])), k, origin[0]))
-        return [origin for _, _, origin in sorted(at, key=lambda one: one[:2])]
-
-    def feet(self, module):
-        return np.array([self.motion[body][0][0] + self.motion[body][1][0] @ centre
-                         for body, centre, _ in self.robot.contacts("feet").values() if body.startswith(f"m{module}/")])
-
-    def name(self, found):
-        for side in (True, False):
-            legs = sorted((leg for leg in found if leg[1] == side), key=lambda leg: -leg[0])
-            for rank, (_, left, chain) in enumerate(legs):
-                middle = "middle" if len(legs) == 3 else f"{rank + 1}" + {1: "nd", 2: "rd"}.get(rank, "th")
-                place = "front" if rank == 0 else "rear" if rank + 1 == len(legs) else middle
-                self.of |= {module: f"m{chain[0]} {place} {'left' if left else 'right'}" for module in chain}
+    def standing(self):
+        chains = list(self.chains())
+        equal = lambda a, b: len(a[1]) == len(b[1]) and all(abs(x - y) <= EQUAL for x, y in zip(a[1], b[1]))
+        models = [chain for chain in chains if self.low[chain[0][-1]] <= self.ground]
+        count = lambda: sum(any(equal(model, chain) for model in models) for chain in chains)
+        if count() < 2:
+            groups = [(sum(equal(one, other) for other in chains), -k) for k, one in enumerate(chains) if one[1]]
+            most = max(groups, default=(0, 0))
+            models = [chains[-most[1]]] if most[0] >= 4 else []
+        elif len(chains) == 2 and self.low.get(None, np.inf) <= self.ground:
+            models = []
+        found = [chain for chain in chains if any(equal(model, chain) for model in models)]
+        return [chain for chain, _ in found] if len(found) > 1 else []
 
     def foot(self, body, feet):
         """Name of a recorded foot in sentences: the leg, and also the body if the leg has several feet."""
-        leg = lambda one: self.of.get(int(one[1:].split("/")[0]))
-        if leg(body) is None:
+        leg = self.of.get(body)
+        if leg is None:
             return body
-        return leg(body) if sum(leg(one) == leg(body) for one in feet) == 1 else f"{leg(body)}, {body}"
+        return leg if sum(self.of.get(one) == leg for one in feet) == 1 else f"{leg}, {body}"
+
+    def name(self, chains, up):
+        forward = np.array([1.0, 0, 0]) - up * up[0]
+        if np.linalg.norm(forward) < 0.5:
+            forward = np.array([0, 1.0, 0]) - up * up[1]
+        forward /= np.linalg.norm(forward)
+        hips = np.array([self.zero.hinge[chain[0]][0][0] for chain in chains])
+        place = lambda points: np.stack([points @ forward, points @ np.cross(up, forward)], -1) - np.mean(
+            np.stack([points @ forward, points @ np.cross(up, forward)], -1), axis=0)
+        at = place(hips)
+        if np.linalg.norm(at, axis=1).max() <= FLAT:
+            at = place(np.array([self.sole(chain[-1]) for chain in chains]))
+        longest, widest = abs(at).max(axis=0)
+        side = [0 if abs(y) < MIDLINE * widest or widest < HUB * longest else 1 if y > 0 else -1 for _, y in at]
+        for here, word in ((1, " left"), (0, ""), (-1, " right")):
+            own = sorted((k for k, one in enumerate(side) if one == here), key=lambda k: -at[k][0])
+            for rank, k in enumerate(own):
+                if len(own) == 1:
+                    name = "middle" if abs(at[k][0]) <= MIDLINE * longest else "front" if at[k][0] > 0 else "rear"
+                elif rank in (0, len(own) - 1):
+                    name = "rear" if rank else "front"
+                else:
+                    name = "middle" if len(own) == 3 else f"{rank + 1}" + {1: "nd", 2: "rd"}.get(rank, "th")
+                self.of |= {body: name + word for body, link in self.link.items() if link in chains[k]}
+
+    def sole(self, link):
+        """Mean of the lowest elements of a link at the start, at zero angles."""
+        lowest = [self.zero[body][0][0] + self.zero[body][1][0] @ centre for body, centre, _, z in self.elements[link]
+                  if z <= self.low[link] + FLAT]
+        return np.mean(lowest, axis=0)

@@ -41,45 +41,24 @@ TEST(Footfall, DutyFactorIsTheShareOfTheStretch) {
   EXPECT_DOUBLE_EQ(duty_factor(found, 5, 5), 0);
 }
 
-std::vector<Leg> pairs(std::size_t count) {
-  std::vector<Leg> legs;
-  for (std::size_t i = 0; i < 2 * count; ++i) {
-    Leg leg;
-    leg.modules = {static_cast<std::int64_t>(i)};
-    leg.left = i % 2 == 0;
-    legs.push_back(leg);
-  }
-  return legs;
-}
-
-TEST(Footfall, LegsHaveNames) {
-  using Names = std::vector<std::string>;
-  EXPECT_EQ(leg_names(pairs(2)), (Names{"m0 front left", "m1 front right", "m2 rear left", "m3 rear right"}));
-  EXPECT_EQ(leg_names(pairs(3))[2], "m2 middle left");
-  EXPECT_EQ(leg_names(pairs(5))[3], "m3 2nd right");
-  EXPECT_EQ(leg_names(pairs(5))[4], "m4 3rd left");
-  EXPECT_EQ(leg_names(pairs(5))[7], "m7 4th right");
-  EXPECT_EQ(leg_names(pairs(5))[8], "m8 rear left");
-}
-
 TEST(Footfall, DrawsABarAStanceAndJoinsWhatNobodySees) {
   Svg svg(1000, 100);
   const Ticks time = ticks_within(10, 18, 8);
   // One footfall before the panel, one across its edge, two separated by 1 ms, and one near the end.
-  const Footfall row{"m9 front left", {{8, 9}, {9.5, 11}, {12, 13}, {13.001, 14}, {17, 19}}, 0.625};
+  const Footfall row{"front left", {{8, 9}, {9.5, 11}, {12, 13}, {13.001, 14}, {17, 19}}, 0.625};
   const std::vector<Footfall> rows{row};
   draw_footfalls(svg, rows, {.ticks = time, .texts = false}, {120, 920, 30, 54});
   const std::string text = svg.finish();
   EXPECT_EQ(count(text, "height=\"12\""), 3U);
   EXPECT_NE(text.find("width=\"100\" height=\"12\""), std::string::npos);  // from 10 to 11 s
   EXPECT_NE(text.find("width=\"200\" height=\"12\""), std::string::npos);  // from 12 to 14 s
-  for (const std::string part : {">m9 front left<", ">0.62<", ">duty factor<"})
+  for (const std::string part : {">front left<", ">0.62<", ">duty factor<"})
     EXPECT_NE(text.find(part), std::string::npos) << part;
 }
 
 TEST(Footfall, CentralSpineJointIsThePapers) {
   const RobotInfo robot = info(*shipped("hexapod.yaml").robot);
-  const std::vector<Leg> legs = find_legs(robot);
+  const std::vector<Leg> legs = robot.legs;
   EXPECT_EQ(central_spine_joint(robot, legs), 5U);  // joint of the paper; joint 4 is as close to the middle, but behind it
   RobotInfo turned = robot;
   for (JointInfo& joint : turned.joints) joint.axis = {0, 0, 1};
@@ -123,8 +102,8 @@ TEST(Footfall, FigureOfAHexapodShowsItsGait) {
   const std::string svg = run_figure(scenario, record, summary);
   EXPECT_EQ(svg, run_figure(scenario, record, summary));
   for (const std::string part :
-       {"joint 5 (m2/passive), middle of the spine", ">m9 front left<", ">m10 front right<", ">m7 middle left<",
-        ">m8 middle right<", ">m5 rear left<", ">m6 rear right<", "load above 2 % of the weight",
+       {"joint 5 (m2/passive), middle of the spine", ">front left<", ">front right<", ">middle left<",
+        ">middle right<", ">rear left<", ">rear right<", "load above 2 % of the weight",
         "front at the right, moves to the right<", ", most loaded", "arrow: m", "centre of mass", "far side"}) {
     EXPECT_NE(svg.find(part), std::string::npos) << part;
   }

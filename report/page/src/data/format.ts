@@ -81,7 +81,7 @@ interface Ground {
 
 interface Foot {
   name: string; // name of the body
-  title: string; // name of the leg as in figures (m5 rear left), or of the body if the leg has no name
+  title: string; // name of the leg as in figures (rear left), or of the body if the leg has no name
   module: number;
   body: number;
   points?: [x: number, y: number, z: number, radius: number][]; // contact elements in body axes, m

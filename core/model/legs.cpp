@@ -1,0 +1,238 @@
+#include "core/model/legs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/model/kinematics.h"
+
+namespace gaitlab {
+
+namespace {
+
+constexpr double kNearGround = 0.1;  // share of the robot's height within which a chain stands
+constexpr double kEqual = 0.01;      // m, largest difference of two equal chains
+constexpr double kMidline = 0.15;    // share of the widest or longest distance within which a leg is in the middle
+constexpr double kSole = 1e-3;       // m, height within which the lowest elements of a foot are its sole
+
+/// Links from the trunk outwards, without branches.
+struct Chain {
+  std::vector<std::size_t> links;
+  std::vector<double> distances;                         ///< between the joints that follow one another, m
+  double low = std::numeric_limits<double>::infinity();  ///< height of the lowest contact element of the last link, m
+
+  [[nodiscard]] bool equals(const Chain& other) const {
+    return std::ranges::equal(distances, other.distances, [](double a, double b) { return std::abs(a - b) <= kEqual; });
+  }
+};
+
+/// A robot in its pose.
+struct Posed {
+  const Robot& robot;
+  Kinematics at, zero;
+  std::vector<ContactElement> elements = contact_elements(robot, ContactSet::all);
+  std::vector<std::size_t> children = std::vector<std::size_t>(robot.links.size(), 0);  // number of them, by link
+
+  Posed(const Robot& of, std::span<const double> q, const Mat3& base) : robot(of), at(of), zero(at_zero(of)) {
+    RobotState state;
+    state.q.assign(q.begin(), q.end());
+    state.qd.assign(q.size(), 0);
+    state.orientation = Quat(base);
+    at.place(robot, state);
+    for (const Link& link : robot.links) {
+      if (link.parent >= 0) ++children[static_cast<std::size_t>(link.parent)];
+    }
+  }
+
+  [[nodiscard]] double height(const ContactElement& element) const {
+    return at.point(element.link, element.centre).z() - element.radius;
+  }
+  [[nodiscard]] double lowest(std::size_t link) const {
+    double low = std::numeric_limits<double>::infinity();
+    for (const ContactElement& element : elements) {
+      if (element.link == link) low = std::min(low, height(element));
+    }
+    return low;
+  }
+  /// True for a link that turns freely about the centre of its only contact element, a sphere.
+  [[nodiscard]] bool is_wheel(std::size_t l) const {
+    const Link& link = robot.links[l];
+    if (!robot.joints[static_cast<std::size_t>(link.joint)].turns_freely()) return false;
+    const auto of_link = [&](const ContactElement& element) { return element.link == l; };
+    const auto one = std::ranges::find_if(elements, of_link);
+    return std::ranges::count_if(elements, of_link) == 1 && one->radius > 0 && one->centre.cross(link.axis).norm() < kSole;
+  }
+
+  [[nodiscard]] std::vector<Chain> chains() const {
+    std::vector<Chain> all;
+    for (std::size_t end = 1; end < robot.links.size(); ++end) {
+      Chain chain;
+      chain.low = lowest(end);
+      if (children[end] > 0 || std::isinf(chain.low) || is_wheel(end)) continue;
+      std::size_t link = end;
+      chain.links.push_back(link);
+      for (auto parent = static_cast<std::size_t>(robot.links[link].parent); parent > 0 && children[parent] == 1;
+           parent = static_cast<std::size_t>(robot.links[link].parent)) {
+        chain.distances.push_back((zero.p[parent] - zero.p[link]).norm());
+        link = parent;
+        chain.links.push_back(link);
+      }
+      std::ranges::reverse(chain.links);
+      std::ranges::reverse(chain.distances);
+      const auto driven = [&](std::size_t l) { return robot.joints[static_cast<std::size_t>(robot.links[l].joint)].driven(); };
+      if (std::ranges::any_of(chain.links, driven)) all.push_back(std::move(chain));
+    }
+    return all;
+  }
+};
+
+/// The chains that are legs.
+std::vector<Chain> walking(const Posed& posed) {
+  std::vector<Chain> chains = posed.chains();
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
+  for (const ContactElement& element : posed.elements) {
+    const double height = posed.height(element);
+    low = std::min(low, height);
+    high = std::max(high, height + 2 * element.radius);
+  }
+  const double ground = low + kNearGround * (high - low);
+  std::vector<Chain> models;
+  for (const Chain& chain : chains) {
+    if (chain.low <= ground) models.push_back(chain);
+  }
+  const auto equals_one = [&](const Chain& chain) {
+    return std::ranges::any_of(models, [&](const Chain& model) { return model.equals(chain); });
+  };
+  if (std::ranges::count_if(chains, equals_one) < 2) {
+    constexpr std::ptrdiff_t kGroup = 4;
+    std::ptrdiff_t most = kGroup - 1;
+    models.clear();
+    for (const Chain& one : chains) {
+      const std::ptrdiff_t equal = std::ranges::count_if(chains, [&](const Chain& other) { return one.equals(other); });
+      if (one.distances.empty() || equal <= most) continue;
+      most = equal;
+      models = {one};
+    }
+  } else if (chains.size() == 2 && posed.lowest(0) <= ground) {
+    models.clear();
+  }
+  std::erase_if(chains, [&](const Chain& chain) { return !equals_one(chain); });
+  if (chains.size() < 2) chains.clear();
+  return chains;
+}
+
+std::array<double, 3> array_of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+Vec3 vector_of(const std::array<double, 3>& a) { return {a[0], a[1], a[2]}; }
+
+Leg leg_of(const Posed& posed, const Chain& chain) {
+  const Robot& robot = posed.robot;
+  Leg leg;
+  for (const std::size_t l : chain.links) {
+    const auto joint = static_cast<std::size_t>(robot.links[l].joint);
+    if (robot.joints[joint].driven()) leg.joints.push_back(static_cast<std::int64_t>(joint));
+    for (std::size_t b = 0; b < robot.bodies.size(); ++b) {
+      if (robot.bodies[b].link == l) leg.bodies.push_back(static_cast<std::int64_t>(b));
+    }
+  }
+  leg.tip = robot.links[chain.links.back()].joint;
+  leg.hip = array_of(posed.zero.p[chain.links.front()]);
+  Vec3 sum = Vec3::Zero();
+  double count = 0;
+  for (const ContactElement& element : posed.elements) {
+    if (element.link != chain.links.back() || posed.height(element) > chain.low + kSole) continue;
+    sum += posed.zero.point(element.link, element.centre);
+    count += 1;
+    leg.radius = element.radius;
+  }
+  leg.foot = array_of(sum / count);
+  return leg;
+}
+
+/// A leg as seen from above, from the middle of all legs, m.
+struct Place {
+  double forward = 0, left = 0;
+};
+
+std::vector<Place> places(const Posed& posed, const std::vector<Leg>& legs, const Mat3& base) {
+  const Vec3 up = base.row(2);
+  Vec3 forward = Vec3::UnitX() - up * up.x();
+  if (forward.norm() < 0.5) forward = Vec3::UnitY() - up * up.y();  // the base's x is vertical
+  const Vec3 left = up.cross(forward.normalized());
+  const auto seen = [&](const auto& point) {
+    std::vector<Place> all;
+    Place mean;
+    for (std::size_t i = 0; i < legs.size(); ++i) {
+      const Vec3 at = point(i);
+      all.push_back({at.dot(forward.normalized()), at.dot(left)});
+      mean.forward += all.back().forward / static_cast<double>(legs.size());
+      mean.left += all.back().left / static_cast<double>(legs.size());
+    }
+    for (Place& one : all) one = {one.forward - mean.forward, one.left - mean.left};
+    return all;
+  };
+  const std::vector<Place> hips = seen([&](std::size_t i) { return vector_of(legs[i].hip); });
+  const auto apart = [](const Place& one) { return one.forward * one.forward + one.left * one.left > kSole * kSole; };
+  if (std::ranges::any_of(hips, apart)) return hips;
+  return seen([&](std::size_t i) { return posed.zero.p[0] + vector_of(legs[i].foot); });  // all hips are on one point
+}
+
+std::string place_name(std::size_t rank, std::size_t count) {
+  if (rank == 0) return "front";
+  if (rank + 1 == count) return "rear";
+  if (count == 3) return "middle";
+  return std::to_string(rank + 1) + (rank == 1 ? "nd" : rank == 2 ? "rd" : "th");
+}
+
+/// Gives the legs of one side their names and places, from front to rear. `most`: the largest distance forwards of all legs, m.
+/// `row`: per leg, 0 at the front of its side to 1 at the rear.
+void name_side(std::vector<Leg>& legs, const std::vector<Place>& at, int side, double most, std::vector<double>& row) {
+  std::vector<std::size_t> own;
+  for (std::size_t i = 0; i < legs.size(); ++i) {
+    if (legs[i].side == side) own.push_back(i);
+  }
+  std::ranges::stable_sort(own, [&](std::size_t a, std::size_t b) { return at[a].forward > at[b].forward; });
+  for (std::size_t rank = 0; rank < own.size(); ++rank) {
+    Leg& leg = legs[own[rank]];
+    const double forward = at[own[rank]].forward;
+    const bool single = own.size() == 1;
+    const bool middle = single && std::abs(forward) <= kMidline * most;
+    const std::string place = middle ? "middle" : single ? forward > 0 ? "front" : "rear" : place_name(rank, own.size());
+    leg.name = place + (side > 0 ? "_left" : side < 0 ? "_right" : "");
+    leg.rank = static_cast<std::int64_t>(rank);
+    leg.count = static_cast<std::int64_t>(own.size());
+    const double last = static_cast<double>(own.size()) - 1;
+    row[own[rank]] = middle ? 0.5 : single ? (forward > 0 ? 0 : 1) : static_cast<double>(rank) / last;
+  }
+}
+
+}  // namespace
+
+std::vector<Leg> legs_of(const Robot& robot, std::span<const double> q, const Mat3& base) {
+  const Posed posed(robot, q, base);
+  std::vector<Leg> legs;
+  for (const Chain& chain : walking(posed)) legs.push_back(leg_of(posed, chain));
+  if (legs.empty()) return legs;
+  const std::vector<Place> at = places(posed, legs, base);
+  double longest = 0, widest = 0;
+  for (const Place& one : at) {
+    longest = std::max(longest, std::abs(one.forward));
+    widest = std::max(widest, std::abs(one.left));
+  }
+  for (std::size_t i = 0; i < legs.size(); ++i) {
+    const bool middle = std::abs(at[i].left) < kMidline * widest || widest < 0.05 * longest;
+    legs[i].side = middle ? 0 : at[i].left > 0 ? 1 : -1;
+    legs[i].angle = math::atan2(at[i].left, at[i].forward);
+  }
+  std::vector<double> row(legs.size());
+  for (const int side : {1, 0, -1}) name_side(legs, at, side, longest, row);
+  std::vector<std::size_t> order(legs.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::ranges::stable_sort(
+      order, [&](std::size_t a, std::size_t b) { return row[a] != row[b] ? row[a] < row[b] : legs[a].side > legs[b].side; });
+  std::vector<Leg> sorted;
+  for (const std::size_t i : order) sorted.push_back(std::move(legs[i]));
+  return sorted;
+}
+
+}  // namespace gaitlab

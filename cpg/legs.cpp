@@ -1,0 +1,199 @@
+#include "cpg/legs.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <numbers>
+
+#include "cpg/stance.h"
+
+namespace gaitlab::cpg {
+
+namespace {
+constexpr double kUsualLift = 0.1;  // share of the height of the stance
+constexpr double kMissed = 0.2;     // share of the way of a foot by which it may miss this way without a note
+
+std::string digits(double value) {
+  std::array<char, 32> text = {};
+  return {text.data(), std::to_chars(text.begin(), text.end(), value, std::chars_format::general, 3).ptr};
+}
+}  // namespace
+
+const char* const Legs::kManual =
+    R"(Feet on given ways, for every robot whose legs are found: docked or imported, with two legs or more.
+
+    stance, time t from -T/2 to T/2, T = duty / f:   x' = -V - turn z (x - c) (vector product),   x(0) = x_0
+    swing, share s from 0 to 1:   a cubic from the end of the stance to its beginning, with the speeds of the stance there,
+                                  + lift sin^2(pi s) upwards
+    body:  every foot + lean w cos(2 pi f t) to the left (only walk and crawl)
+    phase of a leg: f t + p, stance while its fraction is below duty
+    V = (speed + stride f) forwards + side to the left
+    set points: stance angles + min(1, t / ramp) (angles of the gait - stance angles)
+
+x_0: foot in the stance, z: upwards, c: middle of all feet, w: half the track (largest distance of a foot from c to the side). The angles of
+128 points of a cycle follow by damped least squares, with weight 1 along the way of the foot and upwards, and across it 1 for
+legs of three joints or more, 0.1 for others; between them set points are linear. If the feet hold, the body moves with V
+and turns with turn. Other joints stand still.
+
+    gait                      duty       p, as a lead
+    trot, tripod, alternate   0.5        0 and 0.5 in turn around the robot: diagonal pairs, tripods
+    pace; bound               0.5        right; rear legs 0.5
+    gallop                    0.4        rear legs 0.5, right legs 0.1 more
+    walk; crawl               0.75;0.85  from rear to front, sides 0.5 apart
+    wave                      1-1/(2n)   the same, n legs on a side
+    ripple                    0.75       neighbours 0.25 apart, sides 0.5
+
+Stance: initial.angles, if they move a joint of a leg; otherwise feet below the hips, at `stance` times the length of a leg. The
+robot starts there. Balance is not controlled: pace, bound and gallop may fall. A robot of straight legs with flat feet, such as
+the hexapod of M-TRAN modules, walks with type tripod. Legs: docs/modules.md. Angles of the reach: S. Buss, Introduction to
+inverse kinematics, 2009.
+
+    cpg: {type: legs, frequency: 1.5, model: {gait: trot, stride: 0.15}})";
+
+void Legs::Settings::fields(Fields& f) {
+  f.number("frequency", frequency, {"Hz", 0.01, 20, "Frequency of the cycle of stance and swing."});
+  f.group("model", model, "Keys that only this type has.");
+}
+
+void Legs::Model::fields(Fields& f) {
+  f.choice("gait", gait, kGaitNames, "Phases of the legs.");
+  f.number("stride", stride, {"m", -10, 10, "Way of the body in a cycle, forwards (base frame, +x)."});
+  f.number("speed", speed, {"m/s", -10, 10, "Speed forwards, instead of stride."});
+  f.number("side", side, {"m/s", -10, 10, "Speed to the left."});
+  f.number("turn", turn, {"rad/s", -10, 10, "Yaw rate, to the left."});
+  f.number_or("lift", lift, "usual",
+              {"m", 0.0001, 1, "Height of a foot in mid-swing; usual: 0.1 of the height of the stance."});
+  f.number_or("duty", duty, "usual", {"", 0.05, 0.95, "Share of the cycle in which a leg stands; usual: that of the gait."});
+  f.number("lean", lean,
+           {"", 0, 1, "Share of half the track by which the body leans over the legs that stand, in walk and crawl."});
+  f.number_or("stance", stance, "usual",
+              {"", 0.2, 0.98,
+               "Height of the hips in the stance, as a share of the length of a leg; usual: 0.75, or less near a stop."});
+  f.number("ramp", ramp, {"s", 0.1, 100, "Duration of the start, in which the motion grows from the stance."});
+}
+
+Vec3 Legs::Way::foot(const Vec3& from, double time) const {
+  constexpr double kSeries = 1e-4;  // rad, below which the terms of higher order are beyond the rounding
+  const double angle = turn * time;
+  const bool small = std::abs(angle) < kSeries;
+  const double along = small ? 1 - angle * angle / 6 : math::sin(angle) / angle;
+  const double across = small ? angle / 2 : (1 - math::cos(angle)) / angle;
+  const Vec3 way = time * (along * velocity - across * up.cross(velocity));  // integral of R(-turn t) v
+  return middle + gaitlab::turn(up, -angle) * (from - middle) - way;
+}
+
+Vec3 Legs::Way::speed(const Vec3& from, double time) const { return -turn * up.cross(foot(from, time) - middle) - velocity; }
+
+Vec3 Legs::target(const Way& way, const Vec3& from, double share, double lead) const {
+  const double stance = duty_ / s_.frequency;       // s
+  const double swing = (1 - duty_) / s_.frequency;  // s
+  const Vec3 lean = way.left * (way.lean * math::cos(2 * std::numbers::pi * (share - lead)));
+  if (share < duty_) return way.foot(from, stance * (share / duty_ - 0.5)) + lean;
+  const double s = (share - duty_) / (1 - duty_);
+  const double s2 = s * s;
+  const double s3 = s2 * s;
+  const double up = math::sin(std::numbers::pi * s);
+  return (2 * s3 - 3 * s2 + 1) * way.foot(from, stance / 2) + (s3 - 2 * s2 + s) * swing * way.speed(from, stance / 2) +
+         (-2 * s3 + 3 * s2) * way.foot(from, -stance / 2) + (s3 - s2) * swing * way.speed(from, -stance / 2) +
+         way.up * (lift_ * up * up) + lean;
+}
+
+void Legs::plan(const LegKinematics& leg, const Way& way, Step& step) const {
+  constexpr double kAcross = 0.1;  // weight of the direction across the way, for a leg of one or two joints
+  constexpr double kDamping = 1e-3;
+  constexpr int kFirst = 30, kNext = 4;  // steps at the first point, and from point to point
+  const Vec3 from = leg.foot(stance_);
+  const double half = duty_ / s_.frequency / 2;
+  Vec3 along = way.foot(from, -half) - way.foot(from, half);
+  const Vec3 forward = way.left.cross(way.up);
+  along = along.norm() > 1e-9 ? along.normalized() : forward;
+  Mat3 weights;
+  weights.row(0) = along;
+  weights.row(1) = way.up;
+  weights.row(2) = (step.joints.size() >= 3 ? 1 : kAcross) * way.up.cross(along);
+  std::vector<double> q = stance_;
+  step.angles.resize(kSamples * step.joints.size());
+  for (int round = 0; round < 2; ++round) {  // the second begins where the first ended, so that the cycle closes
+    for (std::size_t k = 0; k < kSamples; ++k) {
+      const Vec3 to = target(way, from, static_cast<double>(k) / kSamples, step.phase);
+      leg.reach(to, weights, kDamping, round == 0 && k == 0 ? kFirst : kNext, q);
+      for (std::size_t i = 0; i < step.joints.size(); ++i) step.angles[k * step.joints.size() + i] = q[step.joints[i]];
+      if (round == 1) step.error = std::max(step.error, (to - leg.foot(q)).norm());
+    }
+  }
+}
+
+Legs::Legs(const RobotInfo& robot, const Settings& settings) : s_(settings) {
+  if (robot.legs.empty()) {
+    throw std::invalid_argument(
+        "found no legs: no two chains of links without branches end near the ground at the start (a robot with a fixed base, "
+        "an arm "
+        "and a snake have none); set initial.angles so that the robot stands");
+  }
+  if (s_.model.stride != 0 && s_.model.speed != 0)
+    throw SettingError("model.speed", "stride and speed are both given; expected one");
+  std::vector<LegKinematics> legs;
+  for (const Leg& leg : robot.legs) legs.emplace_back(robot, leg);
+  stance_ = stance_of(robot, legs, s_.model.stance);
+  Way way;
+  way.up = vector_of(robot.up);
+  Vec3 forward = Vec3::UnitX() - way.up * way.up.x();
+  if (forward.norm() < 0.5) forward = Vec3::UnitY() - way.up * way.up.y();
+  forward.normalize();
+  way.left = way.up.cross(forward);
+  way.middle.setZero();
+  for (const LegKinematics& leg : legs) way.middle += leg.foot(stance_) / static_cast<double>(legs.size());
+  double track = 0, height = 0;
+  for (const LegKinematics& leg : legs) {
+    const Vec3 foot = leg.foot(stance_);
+    track = std::max(track, std::abs(way.left.dot(foot - way.middle)));
+    height = std::max(height, way.up.dot(leg.hip(stance_) - foot));
+  }
+  way.velocity = forward * (s_.model.speed + s_.model.stride * s_.frequency) + way.left * s_.model.side;
+  way.turn = s_.model.turn;
+  way.lean = leans(s_.model.gait) ? s_.model.lean * track : 0;
+  duty_ = s_.model.duty > 0 ? s_.model.duty : duty_of(s_.model.gait, robot.legs);
+  lift_ = s_.model.lift > 0 ? s_.model.lift : kUsualLift * height;
+  const std::vector<double> phases = phases_of(s_.model.gait, robot.legs);
+  for (std::size_t l = 0; l < legs.size(); ++l) {
+    Step step{{robot.legs[l].joints.begin(), robot.legs[l].joints.end()}, phases[l], {}, 0};
+    plan(legs[l], way, step);
+    steps_.push_back(std::move(step));
+  }
+  describe(robot, way, height);
+}
+
+void Legs::describe(const RobotInfo& robot, const Way& way, double height) {
+  note_ = std::to_string(steps_.size()) + " legs:";
+  for (const Leg& leg : robot.legs) note_ += (leg.name == robot.legs.front().name ? " " : ", ") + leg.name;
+  note_ += "; hips " + digits(height) + " m above the feet";
+  std::string missed;
+  const double least = way.velocity.norm() * duty_ / s_.frequency;
+  for (std::size_t l = 0; l < steps_.size(); ++l) {
+    const double whole = std::max(least, lift_);
+    if (steps_[l].error > kMissed * whole)
+      missed += (missed.empty() ? "; feet miss their ways: " : ", ") + robot.legs[l].name + " by " +
+                digits(1e3 * steps_[l].error) + " mm";
+  }
+  note_ += missed;
+}
+
+void Legs::output(double t, In, Out setpoint) const {
+  std::copy(stance_.begin(), stance_.end(), setpoint.begin());
+  const double grown = t < s_.model.ramp ? t / s_.model.ramp : 1;
+  for (const Step& step : steps_) {
+    const double cycles = t * s_.frequency + step.phase;
+    const double at = (cycles - std::floor(cycles)) * kSamples;
+    const std::size_t k = std::min(static_cast<std::size_t>(at), kSamples - 1);
+    const double part = at - static_cast<double>(k);
+    const double* const now = &step.angles[k * step.joints.size()];
+    const double* const next = &step.angles[(k + 1) % kSamples * step.joints.size()];
+    for (std::size_t i = 0; i < step.joints.size(); ++i) {
+      double& angle = setpoint[step.joints[i]];
+      angle += grown * ((1 - part) * now[i] + part * next[i] - angle);
+    }
+  }
+}
+
+}  // namespace gaitlab::cpg
