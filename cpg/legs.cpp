@@ -46,8 +46,8 @@ and turns with turn. Other joints stand still.
 
 Stance: initial.angles, if they move a joint of a leg; otherwise feet below the hips, at `stance` times the length of a leg. The
 robot starts there. Balance is not controlled: pace, bound and gallop may fall. A robot of straight legs with flat feet, such as
-the hexapod of M-TRAN modules, walks with type tripod. Legs: docs/modules.md. Angles of the reach: S. Buss, Introduction to
-inverse kinematics, 2009.
+the hexapod of M-TRAN modules, walks with type tripod. Legs: docs/modules.md.
+Reference: S. Buss, Introduction to inverse kinematics, 2009 (damped least squares); gaits and stance chosen.
 
     cpg: {type: legs, frequency: 1.5, model: {gait: trot, stride: 0.15}})";
 
@@ -62,14 +62,13 @@ void Legs::Model::fields(Fields& f) {
   f.number("speed", speed, {"m/s", -10, 10, "Speed forwards, instead of stride."});
   f.number("side", side, {"m/s", -10, 10, "Speed to the left."});
   f.number("turn", turn, {"rad/s", -10, 10, "Yaw rate, to the left."});
-  f.number_or("lift", lift, "usual",
-              {"m", 0.0001, 1, "Height of a foot in mid-swing; usual: 0.1 of the height of the stance."});
-  f.number_or("duty", duty, "usual", {"", 0.05, 0.95, "Share of the cycle in which a leg stands; usual: that of the gait."});
+  f.number_or("lift", lift, "usual", {"m", 0, 1, "Height of a foot in mid-swing; usual: 0.1 of the height of the stance."});
+  f.number_or("duty", duty, "usual", {"", 0, 0.95, "Share of the cycle in which a leg stands; usual: that of the gait."});
   f.number("lean", lean,
            {"", 0, 1, "Share of half the track by which the body leans over the legs that stand, in walk and crawl."});
-  f.number_or("stance", stance, "usual",
-              {"", 0.2, 0.98,
-               "Height of the hips in the stance, as a share of the length of a leg; usual: 0.75, or less near a stop."});
+  f.number_or(
+      "stance", stance, "usual",
+      {"", 0, 0.98, "Height of the hips in the stance, as a share of the length of a leg; usual: 0.75, or less near a stop."});
   f.number("ramp", ramp, {"s", 0.1, 100, "Duration of the start, in which the motion grows from the stance."});
 }
 

@@ -26,14 +26,16 @@ struct Chain {
   }
 };
 
-/// A robot in its pose.
+/// A robot in its pose. Each member's cost is at most linear in the size of the robot.
 struct Posed {
   const Robot& robot;
   Kinematics at, zero;
   std::vector<ContactElement> elements = contact_elements(robot, ContactSet::all);
-  std::vector<std::size_t> children = std::vector<std::size_t>(robot.links.size(), 0);  // number of them, by link
+  std::vector<std::vector<std::size_t>> of_link, bodies;  // numbers of elements and bodies, by link
+  std::vector<std::size_t> children;                      // number of them, by link
 
-  Posed(const Robot& of, std::span<const double> q, const Mat3& base) : robot(of), at(of), zero(at_zero(of)) {
+  Posed(const Robot& of, std::span<const double> q, const Mat3& base)
+      : robot(of), at(of), zero(at_zero(of)), of_link(of.links.size()), bodies(of.links.size()), children(of.links.size(), 0) {
     RobotState state;
     state.q.assign(q.begin(), q.end());
     state.qd.assign(q.size(), 0);
@@ -42,6 +44,8 @@ struct Posed {
     for (const Link& link : robot.links) {
       if (link.parent >= 0) ++children[static_cast<std::size_t>(link.parent)];
     }
+    for (std::size_t e = 0; e < elements.size(); ++e) of_link[elements[e].link].push_back(e);
+    for (std::size_t b = 0; b < robot.bodies.size(); ++b) bodies[robot.bodies[b].link].push_back(b);
   }
 
   [[nodiscard]] double height(const ContactElement& element) const {
@@ -49,26 +53,23 @@ struct Posed {
   }
   [[nodiscard]] double lowest(std::size_t link) const {
     double low = std::numeric_limits<double>::infinity();
-    for (const ContactElement& element : elements) {
-      if (element.link == link) low = std::min(low, height(element));
-    }
+    for (const std::size_t e : of_link[link]) low = std::min(low, height(elements[e]));
     return low;
   }
   /// True for a link that turns freely about the centre of its only contact element, a sphere.
   [[nodiscard]] bool is_wheel(std::size_t l) const {
     const Link& link = robot.links[l];
-    if (!robot.joints[static_cast<std::size_t>(link.joint)].turns_freely()) return false;
-    const auto of_link = [&](const ContactElement& element) { return element.link == l; };
-    const auto one = std::ranges::find_if(elements, of_link);
-    return std::ranges::count_if(elements, of_link) == 1 && one->radius > 0 && one->centre.cross(link.axis).norm() < kSole;
+    if (!robot.joints[static_cast<std::size_t>(link.joint)].turns_freely() || of_link[l].size() != 1) return false;
+    const ContactElement& only = elements[of_link[l][0]];
+    return only.radius > 0 && only.centre.cross(link.axis).norm() < kSole;
   }
 
   [[nodiscard]] std::vector<Chain> chains() const {
     std::vector<Chain> all;
     for (std::size_t end = 1; end < robot.links.size(); ++end) {
+      if (children[end] > 0 || of_link[end].empty() || is_wheel(end)) continue;
       Chain chain;
       chain.low = lowest(end);
-      if (children[end] > 0 || std::isinf(chain.low) || is_wheel(end)) continue;
       std::size_t link = end;
       chain.links.push_back(link);
       for (auto parent = static_cast<std::size_t>(robot.links[link].parent); parent > 0 && children[parent] == 1;
@@ -131,16 +132,15 @@ Leg leg_of(const Posed& posed, const Chain& chain) {
   for (const std::size_t l : chain.links) {
     const auto joint = static_cast<std::size_t>(robot.links[l].joint);
     if (robot.joints[joint].driven()) leg.joints.push_back(static_cast<std::int64_t>(joint));
-    for (std::size_t b = 0; b < robot.bodies.size(); ++b) {
-      if (robot.bodies[b].link == l) leg.bodies.push_back(static_cast<std::int64_t>(b));
-    }
+    for (const std::size_t body : posed.bodies[l]) leg.bodies.push_back(static_cast<std::int64_t>(body));
   }
   leg.tip = robot.links[chain.links.back()].joint;
   leg.hip = array_of(posed.zero.p[chain.links.front()]);
   Vec3 sum = Vec3::Zero();
   double count = 0;
-  for (const ContactElement& element : posed.elements) {
-    if (element.link != chain.links.back() || posed.height(element) > chain.low + kSole) continue;
+  for (const std::size_t e : posed.of_link[chain.links.back()]) {
+    const ContactElement& element = posed.elements[e];
+    if (posed.height(element) > chain.low + kSole) continue;
     sum += posed.zero.point(element.link, element.centre);
     count += 1;
     leg.radius = element.radius;

@@ -319,8 +319,7 @@ TEST_F(PaperFigure, EveryKindIsDrawn) {
   for (const char* file : {"f.pdf", "f-a.csv", "f-b.csv", "f-c.csv", "f-d.csv"}) EXPECT_TRUE(fs::exists(folder / file)) << file;
   EXPECT_TRUE(contains(all.out, "f.pdf: 181.9 x ")) << all.out;
   refused(kRuns + "panels: [{kind: footfalls}]\n",
-          "figure.yaml:2:17: error: footfalls need four legs or more; a leg is a chain of modules, docked to the left or right "
-          "(+-y) of a spine, that ends in contact elements");
+          "figure.yaml:2:17: error: footfalls need a robot with legs (docs/modules.md), and a run with rows");
 }
 
 /// Runs of CSV files have units, which follow from the names of the columns.
