@@ -146,10 +146,10 @@ class Findings {
       const double half = (one.high - one.low) / 2;
       const Key& key = keys_[one.key];
       if (one.at_bound) {
-        add("{} is at a bound of its range, {} to {} {}; without an interval", key.name, number_text(key.low),
-            number_text(key.high), key.unit);
+        add("{} is at a bound of its range, {:.4g} to {:.4g}{}{}; without an interval", key.name, key.low, key.high,
+            key.unit.empty() ? "" : " ", key.unit);
       } else if (one.fitted && half > kWide * std::abs(one.value)) {
-        add("{} is known to +- {:.2g} {} only", key.name, half, key.unit);
+        add("{} is known to +- {:.2g}{}{} only", key.name, half, key.unit.empty() ? "" : " ", key.unit);
       }
     }
   }

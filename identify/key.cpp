@@ -33,6 +33,7 @@ constexpr UsualKey kUsual[] = {{"actuator.stall_torque"},           {"actuator.n
 struct Number {
   std::string unit;
   PerJoint value;
+  double min = 0, max = 0;  ///< range of the setting
 };
 
 /// Numbers of the bench's motor and its controller by key.
@@ -41,7 +42,7 @@ std::vector<std::pair<std::string, Number>> numbers_of(const Scenario& bench) {
   const auto add = [&](const std::string& section, const PluginSelection& plugin) {
     const SettingsNumbers numbers(plugin);
     for (const SettingsNumbers::Found& one : numbers.all())
-      all.emplace_back(section + "." + one.key, Number{one.unit, one.value});
+      all.emplace_back(section + "." + one.key, Number{one.unit, one.value, one.min, one.max});
   };
   add("actuator", bench.actuator);
   add("controller", bench.controller);
@@ -109,6 +110,8 @@ std::vector<Key> fitted_keys(const Scenario& bench, const std::vector<std::strin
     }
     const auto* const usual = std::ranges::find(kUsual, common, &UsualKey::name);
     if (usual != std::end(kUsual) && usual->from_zero) key.low = 0;
+    key.low = std::max(key.low, at->second.min);
+    key.high = std::min(key.high, at->second.max);
     if (usual != std::end(kUsual) && usual->of_ticks) key.least = bench.control_period;
     if (equals != std::string::npos) {
       const auto range = range_of(text.substr(equals + 1));

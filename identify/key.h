@@ -18,8 +18,9 @@ struct Key {
 };
 
 /// Keys of the bench to fit: those that `asked` names (NAME or NAME.JOINT, and =LOW:HIGH), or else the usual ones of its
-/// actuator and controller. A key without a range has from a 20th of its value to 20 times its value. Throws InputError
-/// for an unknown name, a key without a joint that differs between joints, a bad range, and a start of 0 without a range.
+/// actuator and controller. A key without a range has from a 20th of its value to 20 times its value, within the range of the
+/// setting. Throws InputError for an unknown name, a key without a joint that differs between joints, a bad range, and a start
+/// of 0 without a range.
 std::vector<Key> fitted_keys(const Scenario& bench, const std::vector<std::string>& asked);
 
 }  // namespace gaitlab::identify

@@ -33,7 +33,7 @@ Rows key_rows(const Identified& made, const std::vector<Key>& keys) {
     rows.push_back({key.name, one.fitted ? number_text(one.value) : "as in the bench",
                     !one.fitted    ? "-"
                     : one.at_bound ? "at its bound"
-                                   : number_text(one.low) + " to " + number_text(one.high),
+                                   : fmt::format("{:.4g} to {:.4g}", one.low, one.high),
                     key.unit, fmt::format("{:.4g}", key.bench), worth});
   }
   return rows;

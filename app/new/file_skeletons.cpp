@@ -108,7 +108,7 @@ ground: {type: none}
 contact: {"on": none}
 physics: {engine: articulated, estimate: off}
 
-actuator: @ACTUATOR@   # u_max: the supply, V
+actuator: @ACTUATOR@   # u_max: the supply of the bench, V; 0: the voltage of the data sheet
 controller: @CONTROLLER@   # a column controller.P in a table of logs has the gain of each log
 
 # The goals are replayed, and the angles compared. `identify` puts each log in place of log.csv.

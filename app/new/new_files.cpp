@@ -13,6 +13,7 @@
 #include "app/new/scenario_values.h"
 #include "app/new/skeletons.h"
 #include "app/shell/commands.h"
+#include "core/robot_files/module_file.h"
 #include "core/robot_files/servo_file.h"
 #include "core/robot_files/type_library.h"
 #include "core/scenario/read_scenario.h"
@@ -22,6 +23,7 @@
 #include "core/settings/writer.h"
 #include "core/simulation/simulation.h"
 #include "interchange/urdf_module.h"
+#include "report/analysis/own_overlap.h"
 
 namespace gaitlab::app {
 
@@ -48,6 +50,24 @@ std::string write_new(const NewFileArguments& arguments, const std::string& text
   return file;
 }
 
+/// The key `may_overlap` for bodies that overlap at all angles, with a note; empty if there are none.
+std::string overlap_text(const std::string& module, const std::string& from) {
+  Problems problems;
+  const ModuleType type = read_module(parse_yaml(module, "module"), true, problems);
+  problems.raise();
+  std::string text;
+  const auto pairs = report::always_overlapping(type);
+  for (const auto& [a, b] : pairs)
+    text += fmt::format("  - [{}, {}]\n", yaml_text(type.bodies[a].name), yaml_text(type.bodies[b].name));
+  if (text.empty()) return text;
+  say(from, "note",
+      fmt::format("may_overlap lists {} of bodies that overlap at all angles, the first '{}' and '{}'",
+                  counted(pairs.size(), "pair"), type.bodies[pairs[0].first].name, type.bodies[pairs[0].second].name));
+  return "# Bodies that overlap by more than 0.5 mm at all angles, as drawn. The check `collision` leaves them "
+         "out.\nmay_overlap:\n" +
+         text;
+}
+
 int new_module(const NewFileArguments& arguments) {
   const std::string& name = arguments.name;
   check_file_name("module", name);
@@ -63,7 +83,7 @@ int new_module(const NewFileArguments& arguments) {
     interchange::UrdfModule made = interchange::module_of_urdf(*arguments.from, name, arguments.urdf);
     for (const interchange::UrdfNote& note : made.notes) say(to_string(note.place), "note", note.kind() + (": " + note.text));
     changes = static_cast<std::size_t>(std::ranges::count(made.notes, true, &interchange::UrdfNote::changed));
-    text = std::move(made.text);
+    text = made.text + overlap_text(made.text, *arguments.from);
     what = "the robot of " + *arguments.from + " as a module";
     driven = made.driven;
   }

@@ -10,12 +10,15 @@ SettingsNumbers::SettingsNumbers(const PluginSelection& plugin) {
 
 void SettingsNumbers::visit(const Field& field) {
   if (const auto* number = std::get_if<field::Number>(&field.value)) {
-    found_.push_back({prefix_ + field.key, number->spec.unit, PerJoint{number->value}});
-  } else if (const auto* each = std::get_if<field::EachJoint>(&field.value)) {
-    found_.push_back({prefix_ + field.key, each->spec.unit, in_force(*each), !not_stated(*each)});
-  } else if (const auto* periods = std::get_if<field::Periods>(&field.value)) {
     found_.push_back(
-        {prefix_ + field.key, periods->spec.unit, PerJoint{periods->most == nullptr ? periods->value : *periods->most}});
+        {prefix_ + field.key, number->spec.unit, PerJoint{number->value}, true, number->spec.min, number->spec.max});
+  } else if (const auto* each = std::get_if<field::EachJoint>(&field.value)) {
+    found_.push_back(
+        {prefix_ + field.key, each->spec.unit, in_force(*each), !not_stated(*each), each->spec.min, each->spec.max});
+  } else if (const auto* periods = std::get_if<field::Periods>(&field.value)) {
+    found_.push_back({prefix_ + field.key, periods->spec.unit,
+                      PerJoint{periods->most == nullptr ? periods->value : *periods->most}, true, periods->spec.min,
+                      periods->spec.max});
   } else if (const auto* group = std::get_if<field::Group>(&field.value)) {
     const std::string before = prefix_;
     prefix_ += std::string(field.key) + ".";

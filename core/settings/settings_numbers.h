@@ -13,7 +13,8 @@ class SettingsNumbers final : public Fields {
   struct Found {
     std::string key, unit;
     PerJoint value;
-    bool stated = true;  ///< false for a value that follows from other fields
+    bool stated = true;       ///< false for a value that follows from other fields
+    double min = 0, max = 0;  ///< range of the setting
   };
   explicit SettingsNumbers(const PluginSelection& plugin);
   /// Numbers of a section.

@@ -7,6 +7,8 @@
 #include <optional>
 #include <utility>
 
+#include "core/math/philox.h"
+
 namespace gaitlab::report {
 
 namespace {
@@ -20,15 +22,17 @@ std::vector<Convex> shapes_of(const BodyType& body, const Pose& place) {
   return made;
 }
 
-/// Poses of the bodies in the frame of the root, with all hinges at 0.
-std::vector<Pose> poses_at_zero(const ModuleType& type) {
+/// Poses of the bodies in the frame of the root, with the hinges at the angles (rad).
+std::vector<Pose> poses_at(const ModuleType& type, const std::vector<double>& angles) {
   std::vector<std::optional<Pose>> found(type.bodies.size());
   found[type.root] = Pose{};
   for (bool more = true; more;) {
     more = false;
-    for (const HingeType& hinge : type.hinges) {
+    for (std::size_t h = 0; h < type.hinges.size(); ++h) {
+      const HingeType& hinge = type.hinges[h];
       if (!found[hinge.parent] || found[hinge.child]) continue;
       found[hinge.child] = *found[hinge.parent] * hinge.in_parent;
+      if (angles[h] != 0) found[hinge.child]->R *= turn(hinge.axis, angles[h]).toRotationMatrix();
       more = true;
     }
   }
@@ -45,7 +49,7 @@ bool on_one_hinge(const ModuleType& type, std::size_t a, std::size_t b) {
 }  // namespace
 
 DesignOverlap::DesignOverlap(const ModuleType& type) : type_(type) {
-  const std::vector<Pose> poses = poses_at_zero(type);
+  const std::vector<Pose> poses = poses_at(type, std::vector<double>(type.hinges.size(), 0.0));
   for (std::size_t b = 0; b < type.bodies.size(); ++b) {
     Placed body{shapes_of(type.bodies[b], poses[b])};
     std::size_t corners = 0;
@@ -133,6 +137,35 @@ double deepest_in_range(const ModuleType& type, std::size_t hinge) {
   double deepest = 0;
   for (int k = 0; k <= steps; ++k) deepest = std::max(deepest, overlap.beyond(lo + (hi - lo) * k / steps));
   return deepest;
+}
+
+std::vector<std::pair<std::size_t, std::size_t>> always_overlapping(const ModuleType& type) {
+  constexpr double kDeep = 5e-4;  // m
+  constexpr std::uint32_t kDraws = 64;
+  std::vector<std::pair<std::size_t, std::size_t>> pairs;
+  for (std::size_t a = 0; a < type.bodies.size(); ++a) {
+    for (std::size_t b = a + 1; b < type.bodies.size(); ++b) pairs.emplace_back(a, b);
+  }
+  for (std::uint32_t draw = 0; draw < kDraws && !pairs.empty(); ++draw) {
+    std::vector<double> angles;
+    for (std::size_t h = 0; h < type.hinges.size(); ++h) {
+      const double lo = std::max(type.hinges[h].lo, -kWholeTurn / 2);
+      const double hi = std::min(type.hinges[h].hi, kWholeTurn / 2);
+      const double share = math::philox({draw, static_cast<std::uint32_t>(h), 0, 0}, {0, 0})[0] / 4294967296.0;
+      angles.push_back(lo + share * (hi - lo));
+    }
+    const std::vector<Pose> poses = poses_at(type, angles);
+    const auto apart = [&](const auto& pair) {
+      double deepest = 0;
+      for (const Convex& one : shapes_of(type.bodies[pair.first], poses[pair.first])) {
+        for (const Convex& other : shapes_of(type.bodies[pair.second], poses[pair.second]))
+          deepest = std::max(deepest, penetration(one, other, deepest));
+      }
+      return deepest <= kDeep;
+    };
+    std::erase_if(pairs, apart);
+  }
+  return pairs;
 }
 
 std::vector<std::string> body_names(const ModuleType& type) {

@@ -58,6 +58,10 @@ class HingeOverlap {
 /// hinge, or within a turn of a free hinge.
 double deepest_in_range(const ModuleType& type, std::size_t hinge);
 
+/// Pairs of bodies that overlap by more than 0.5 mm at each of 64 drawn sets of angles within the ranges of the hinges: shapes
+/// that the file does not draw as they are.
+std::vector<std::pair<std::size_t, std::size_t>> always_overlapping(const ModuleType& type);
+
 /// Names of the bodies of a type, for ModuleType::may_overlap.
 std::vector<std::string> body_names(const ModuleType& type);
 

@@ -4,7 +4,10 @@
 
 #include "app/new/chain.h"
 #include "core/laws/data_sheet.h"
+#include "core/scenario/sensor_section.h"
 #include "core/settings/shipped_files.h"
+#include "report/figures/paper/paper_panel.h"
+#include "report/figures/run/run_footfalls.h"
 #include "tests/folders.h"
 #include "tests/labels.h"
 #include "tests/program/fixture.h"
@@ -99,13 +102,15 @@ TEST_F(NewFiles, ImportedRobotsRun) {
   const Row rows[] = {
       {"visual_is_not_contact",
        {": note: Changed: effort and velocity become the ends of a motor's line",
-        ":3:3: note: Not carried over: the visual shapes of link 'body'; those of collision are drawn and touch"},
+        ":3:3: note: Not carried over: the visual shapes of link 'body'; those of collision are drawn and touch",
+        ": note: may_overlap lists 1 pair of bodies that overlap at all angles, the first 'body' and 'tail'"},
        ""},
       {"overlap_at_rest",
        {": note: Changed: effort and velocity become the ends of a motor's line",
         ":3:3: note: Changed: link 'base' has no collision; its visual shapes are its contact",
         ":4:3: note: Changed: link 'hip' has no collision; its visual shapes are its contact",
-        ":5:3: note: Changed: link 'leg' has no collision; its visual shapes are its contact"},
+        ":5:3: note: Changed: link 'leg' has no collision; its visual shapes are its contact",
+        ": note: may_overlap lists 3 pairs of bodies that overlap at all angles, the first 'base' and 'hip'"},
        ""},
       {"continuous_joint_without_limit",
        {": note: Changed: effort and velocity become the ends of a motor's line",
@@ -137,6 +142,35 @@ TEST_F(NewFiles, ImportedRobotsRun) {
     EXPECT_EQ(run.code, 0) << row.file << run.err;
     for (const char* const name : {"m.yaml", "walk.yaml", "run"}) std::filesystem::remove_all(folder / name);
   }
+}
+
+/// From the URDF file of a quadruped to a verdict in three commands: the feet are on their ways, and the robot goes forwards.
+TEST_F(NewFiles, AQuadrupedWalks) {
+  ASSERT_EQ(call("module dog --from " + std::string(source_folder()) + "/scenarios/robots/dog.urdf").code, 0);
+  ASSERT_EQ(call("scenario walk --module dog.yaml").code, 0);
+  const std::string text = read(folder / "walk.yaml");
+  EXPECT_TRUE(contains(text, "# Scenario walk: a trot of dog.")) << text;
+  EXPECT_TRUE(contains(text, "  period: 0.002 ")) << text;
+  const Scenario scenario = read_scenario(folder / "walk.yaml", {"duration=4"}, catalog());
+  const RobotInfo robot = plugin_info(scenario);
+  ASSERT_EQ(robot.legs.size(), 4U);
+  EXPECT_EQ(robot.legs[2].name, "rear_left");
+  Simulation simulation({&scenario, 1}, Loads::recorded);
+  simulation.run();
+  const Recording record = simulation.take_recording(0);
+  const report::Summary summary = report::summarise(scenario, record, 0);
+  ASSERT_TRUE(summary.fall && *summary.fall);
+  EXPECT_FALSE((*summary.fall)->time) << "it falls";
+  // Half of stride times frequency over the time after the ramp; it goes at 0.9 of it.
+  EXPECT_GT(Table(record.trace)(4, "base.x") - Table(record.trace)(1, "base.x"), 0.5 * 0.05 * 1.9 * 3);
+  EXPECT_LT(std::abs(Table(record.trace)(4, "base.y") - Table(record.trace)(1, "base.y")), 0.05);
+  // The footfalls of a robot of one module are those of its legs, from the loads of its bodies. A trot stands for half of the
+  // time.
+  const std::vector<double> time = report::row_times(record);
+  const std::vector<report::Footfall> falls = report::footfalls(scenario, record, robot.legs, time, 1);
+  ASSERT_EQ(falls.size(), 4U);
+  for (const report::Footfall& leg : falls) EXPECT_NEAR(leg.duty_factor, 0.5, 0.15) << leg.name;
+  EXPECT_EQ(falls[1].name, "front right");
 }
 
 /// Without --from, --lock has no joints; a pattern that matches none, and what is refused, leave no file.

@@ -85,8 +85,14 @@ class Gate:
         self.judge(f"{name}, without friction", out, made.stdout)
         other = json.loads((out / "verdict.json").read_text())
         bare = Record(out / "trace.h5")
-        word = Judged(bare, other["window"]["from"], whole=False).word(other["checks"])
-        word = "not judged" if bare.spread is not None else word  # its rollouts are not simulated for this word
+        checks = other["checks"]
+        if bare.chaotic():
+            word = "not judged"  # its rollouts are not simulated for this word
+        else:  # the word of one run, without a spread: an ill-conditioned motion
+            if bare.spread is not None:
+                checks = [c | {"status": "fail" if c["margin"] < 0 else "pass"} if c["status"] == "too close" else c for c in checks]
+            bare.spread = None
+            word = Judged(bare, other["window"]["from"], whole=False).word(checks)
         self.frictions[word] += 1
         return word
 

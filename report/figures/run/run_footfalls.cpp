@@ -47,8 +47,9 @@ LegLoads loads_of(const Scenario& scenario, const Recording& r, const std::vecto
     std::vector<double> load(r.rows(), 0.0);
     for (const std::string& name : columns.names) {
       const std::size_t at = columns.of_bodies ? at_ticks.find(name) : 0;
-      const bool missing = columns.of_bodies ? at == at_ticks.columns.size() || at_ticks.rows() == 0 : r.series(name).empty();
+      const bool missing = columns.of_bodies ? at_ticks.rows() == 0 : r.series(name).empty();
       if (missing) return {{}, name};
+      if (columns.of_bodies && at == at_ticks.columns.size()) continue;  // a body that never touched the ground has no columns
       const std::vector<double> part = columns.of_bodies ? Series(at_ticks, at).values() : r.series(name).values();
       for (std::size_t k = 0; k < load.size(); ++k) load[k] += part[k];
     }
