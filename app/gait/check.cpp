@@ -18,6 +18,7 @@
 #include "core/simulation/recorder.h"
 #include "core/simulation/simulation.h"
 #include "core/simulation/start.h"
+#include "report/analysis/legs.h"
 #include "report/analysis/start_row.h"
 #include "report/page/page.h"
 #include "report/verdict/position_loop.h"
@@ -132,6 +133,19 @@ void note_outcome(const Scenario& s) {
   }
 }
 
+void print_legs(const Scenario& s) {
+  const std::vector<Leg> legs = report::legs_that_walk(s);
+  if (legs.empty()) return;
+  std::string text;
+  for (const Leg& leg : legs) {
+    const std::string& first = s.robot->joints[static_cast<std::size_t>(leg.joints.front())].name;
+    const std::string& last = s.robot->joints[static_cast<std::size_t>(leg.joints.back())].name;
+    text += fmt::format("{}{} ({}{}{})", text.empty() ? "" : ", ", report::leg_name(leg), first, first == last ? "" : " to ",
+                        first == last ? "" : last);
+  }
+  print_fitted(fmt::format("  legs: {}\n", text));
+}
+
 int check(const CheckArguments& arguments) {
   if (arguments.page) check_page(*arguments.page);
   Catalog catalog = careful_catalog(arguments.plugins);
@@ -163,6 +177,7 @@ int check(const CheckArguments& arguments) {
                            plugin_name(s.controller), plugin_name(s.actuator), contacts.size()));
   if (const auto loops = report::position_loops(s); !loops.empty())
     print_fitted(fmt::format("  position loop: {}\n", report::loop_text(s, loops)));
+  print_legs(s);
   const RowsNeeded needed = simulation->rows_needed(0);
   print_fitted(fmt::format("  records {:.0f} rows of {:.0f} columns ({:.3g} MB) in {:g} s\n", needed.rows, needed.columns,
                            needed.bytes() / 1e6, s.duration));
