@@ -102,9 +102,9 @@ TEST(Footfall, FigureOfAHexapodShowsItsGait) {
   const std::string svg = run_figure(scenario, record, summary);
   EXPECT_EQ(svg, run_figure(scenario, record, summary));
   for (const std::string part :
-       {"joint 5 (m2/passive), middle of the spine", ">front left<", ">front right<", ">middle left<",
-        ">middle right<", ">rear left<", ">rear right<", "load above 2 % of the weight",
-        "front at the right, moves to the right<", ", most loaded", "arrow: m", "centre of mass", "far side"}) {
+       {"joint 5 (m2/passive), middle of the spine", ">front left<", ">front right<", ">middle left<", ">middle right<",
+        ">rear left<", ">rear right<", "load above 2 % of the weight", "front at the right, moves to the right<",
+        ", most loaded", "arrow: m", "centre of mass", "far side"}) {
     EXPECT_NE(svg.find(part), std::string::npos) << part;
   }
   // The figure has five views a fifth of the 2 s cycle apart, also without a limit cycle (ramp of 1 s, duration of 4 s).
