@@ -32,6 +32,10 @@ std::int64_t on_a_side(const std::vector<Leg>& legs) {
   return most;
 }
 
+bool two_sides(const std::vector<Leg>& legs) {
+  return std::all_of(legs.begin(), legs.end(), [](const Leg& leg) { return leg.side != 0; });
+}
+
 std::string names_of(const std::vector<Leg>& legs) {
   std::string text;
   for (const Leg& leg : legs) text += (text.empty() ? "" : ", ") + leg.name;
@@ -41,6 +45,7 @@ std::string names_of(const std::vector<Leg>& legs) {
 }  // namespace
 
 double duty_of(Gait gait, const std::vector<Leg>& legs) {
+  const auto count = static_cast<double>(two_sides(legs) ? 2 * on_a_side(legs) : static_cast<std::int64_t>(legs.size()));
   switch (gait) {
     case Gait::gallop:
       return 0.4;
@@ -50,7 +55,7 @@ double duty_of(Gait gait, const std::vector<Leg>& legs) {
     case Gait::crawl:
       return 0.85;
     case Gait::wave:
-      return 1 - 0.5 / static_cast<double>(on_a_side(legs));
+      return 1 - 1 / count;
     default:
       return 0.5;
   }
@@ -66,7 +71,7 @@ std::vector<double> phases_of(Gait gait, const std::vector<Leg>& legs) {
     throw std::invalid_argument("gait " + std::string(kGaitNames[static_cast<std::size_t>(gait)]) +
                                 " needs an even number of legs; found " + std::to_string(legs.size()) + ": " + names_of(legs));
   }
-  const bool two_sides = std::all_of(legs.begin(), legs.end(), [](const Leg& leg) { return leg.side != 0; });
+  const bool sides = two_sides(legs);
   std::vector<double> phases;
   for (std::size_t i = 0; i < legs.size(); ++i) {
     const Leg& leg = legs[i];
@@ -86,11 +91,11 @@ std::vector<double> phases_of(Gait gait, const std::vector<Leg>& legs) {
       case Gait::walk:
       case Gait::crawl:
       case Gait::wave:
-        phases.push_back(two_sides ? right - behind * 0.5 / static_cast<double>(leg.count)
-                                   : -static_cast<double>(number[i]) / static_cast<double>(legs.size()));
+        phases.push_back(sides ? right - behind * 0.5 / static_cast<double>(leg.count)
+                               : -static_cast<double>(number[i]) / static_cast<double>(legs.size()));
         break;
       case Gait::ripple:
-        phases.push_back(right - behind * 0.25);
+        phases.push_back(sides ? right - behind * 0.25 : -0.25 * static_cast<double>(number[i]));
         break;
       default:
         phases.push_back(number[i] % 2 == 0 ? 0 : 0.5);

@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <limits>
 
 namespace gaitlab::cpg {
 
@@ -10,7 +11,7 @@ constexpr double kWidest = 2.5;   // rad, largest angle of a joint in a stance o
 constexpr double kLongest = 0.3;  // rad, largest step
 }  // namespace
 
-LegKinematics::LegKinematics(const RobotInfo& robot, const Leg& leg) : foot_(vector_of(leg.foot)) {
+LegKinematics::LegKinematics(const RobotInfo& robot, const Leg& leg) : elements_(leg.elements), foot_(vector_of(leg.foot)) {
   for (std::int64_t j = leg.tip; j >= 0; j = robot.joints[static_cast<std::size_t>(j)].parent) {
     const JointInfo& joint = robot.joints[static_cast<std::size_t>(j)];
     const auto own = std::find(leg.joints.begin(), leg.joints.end(), j);
@@ -19,15 +20,12 @@ LegKinematics::LegKinematics(const RobotInfo& robot, const Leg& leg) : foot_(vec
   }
   std::reverse(hinges_.begin(), hinges_.end());
   while (hinges_[first_].of_leg != 0) ++first_;
-  for (std::size_t k = first_; k < hinges_.size(); ++k) {
-    const Vec3& next = k + 1 < hinges_.size() ? hinges_[k + 1].origin : foot_;
-    length_ += (next - hinges_[k].origin).norm();
-  }
+  measure();
   for (const std::int64_t j : leg.joints) {
     const JointInfo& joint = robot.joints[static_cast<std::size_t>(j)];
     joints_.push_back(static_cast<std::size_t>(j));
-    const double lo = std::max(joint.lo, -kWidest);
-    const double hi = std::min(joint.hi, kWidest);
+    const double lo = std::max(joint.lo, std::min(-kWidest, joint.start));
+    const double hi = std::min(joint.hi, std::max(kWidest, joint.start));
     ranges_.push_back(lo < hi ? Range{lo, hi} : Range{joint.lo, joint.hi});
   }
 }
@@ -37,15 +35,49 @@ Pose LegKinematics::turn_of(const Hinge& hinge, double angle) {
   return {R, hinge.origin - R * hinge.origin};
 }
 
-Vec3 LegKinematics::foot(const std::vector<double>& q) const {
-  Vec3 at = foot_;
+void LegKinematics::measure() {
+  length_ = 0;
+  for (std::size_t k = first_; k < hinges_.size(); ++k) {
+    const Vec3& next = k + 1 < hinges_.size() ? hinges_[k + 1].origin : foot_;
+    length_ += (next - hinges_[k].origin).norm();
+  }
+}
+
+Vec3 LegKinematics::moved(Vec3 at, const std::vector<double>& q) const {
   for (std::size_t k = hinges_.size(); k-- > 0;) at = turn_of(hinges_[k], q[hinges_[k].joint]) * at;
   return at;
+}
+
+Vec3 LegKinematics::foot(const std::vector<double>& q) const { return moved(foot_, q); }
+
+bool LegKinematics::stand(const std::vector<double>& q, const Vec3& up) {
+  constexpr double kSole = 1e-3;  // m
+  const auto point = [](const std::array<double, 4>& element) { return Vec3(element[0], element[1], element[2]); };
+  const auto height = [&](const std::array<double, 4>& element) { return up.dot(moved(point(element), q)) - element[3]; };
+  double low = std::numeric_limits<double>::infinity();
+  for (const auto& element : elements_) low = std::min(low, height(element));
+  Vec3 sum = Vec3::Zero();
+  double count = 0;
+  for (const auto& element : elements_) {
+    if (height(element) > low + kSole) continue;
+    sum += point(element);
+    count += 1;
+  }
+  if (count == 0 || (sum / count - foot_).norm() < kSole) return false;
+  foot_ = sum / count;
+  measure();
+  return true;
 }
 
 Vec3 LegKinematics::hip(const std::vector<double>& q) const {
   Vec3 at = hinges_[first_].origin;
   for (std::size_t k = first_; k-- > 0;) at = turn_of(hinges_[k], q[hinges_[k].joint]) * at;
+  return at;
+}
+
+Vec3 LegKinematics::knee(const std::vector<double>& q) const {
+  Vec3 at = hinges_.back().origin;
+  for (std::size_t k = hinges_.size() - 1; k-- > 0;) at = turn_of(hinges_[k], q[hinges_[k].joint]) * at;
   return at;
 }
 

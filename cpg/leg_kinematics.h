@@ -19,13 +19,18 @@ class LegKinematics {
   [[nodiscard]] Vec3 foot(const std::vector<double>& q) const;
   /// Origin of the first joint of the leg, as foot().
   [[nodiscard]] Vec3 hip(const std::vector<double>& q) const;
+  /// Origin of the last joint of the leg, as foot().
+  [[nodiscard]] Vec3 knee(const std::vector<double>& q) const;
   /// Axis of the first joint of the leg, base frame, for the angles `q`.
   [[nodiscard]] Vec3 hip_axis(const std::vector<double>& q) const;
   /// Length of the stretched leg: distances between its joints, and from the last joint to the foot, m.
   [[nodiscard]] double length() const { return length_; }
 
-  /// Moves the angles of the leg's joints, within their ranges and within 2.5 rad of 0 where a range is wider, until the foot
-  /// is nearest to `target`, by at most `rounds` steps of damped least squares
+  /// Makes the middle of the contact elements that are lowest (to 1 mm) at the angles `q` the foot. False if it is the foot.
+  bool stand(const std::vector<double>& q, const Vec3& up);
+
+  /// Moves the angles of the leg's joints, within their ranges and within 2.5 rad of 0 (or up to their start) where a range is
+  /// wider, until the foot is nearest to `target`, by at most `rounds` steps of damped least squares
   ///     dq = J' W' (W J J' W' + d^2 1)^-1 W e,   e = target - foot, |dq_j| <= 0.3 rad.
   /// `weights` (W) has the weights of directions in its rows. `damping` is d as a share of the norm of W J.
   /// Reference: S. Buss, Introduction to inverse kinematics with Jacobian transpose, pseudoinverse and damped least squares
@@ -44,6 +49,9 @@ class LegKinematics {
     Vec3 origin, axis;  ///< base frame at zero angles
     int of_leg = -1;    ///< number among the driven joints of the leg
   };
+  /// Position of a point of the last link, given in the base frame at zero angles, m.
+  [[nodiscard]] Vec3 moved(Vec3 at, const std::vector<double>& q) const;
+  void measure();
   /// Turn about a point: x -> R x + p.
   [[nodiscard]] static Pose turn_of(const Hinge& hinge, double angle);
 
@@ -51,6 +59,7 @@ class LegKinematics {
   std::size_t first_ = 0;      ///< number in hinges_ of the first driven joint of the leg
   std::vector<std::size_t> joints_;
   std::vector<Range> ranges_;
+  std::vector<std::array<double, 4>> elements_;
   Vec3 foot_ = Vec3::Zero();
   double length_ = 0;
 };

@@ -41,10 +41,12 @@ and turns with turn. Other joints stand still.
     pace; bound               0.5        right; rear legs 0.5
     gallop                    0.4        rear legs 0.5, right legs 0.1 more
     walk; crawl               0.75;0.85  from rear to front, sides 0.5 apart
-    wave                      1-1/(2n)   the same, n legs on a side
+    wave                      1-1/n      the same, n legs
     ripple                    0.75       neighbours 0.25 apart, sides 0.5
 
-Stance: initial.angles, if they move a joint of a leg; otherwise feet below the hips, at `stance` times the length of a leg. The
+With a leg on the midline, the legs of walk, crawl, wave and ripple follow one another around the robot.
+
+Stance: initial.angles, if they are stated; otherwise feet below the hips, at `stance` times the length of a leg. The
 robot starts there. Balance is not controlled: pace, bound and gallop may fall. A robot of straight legs with flat feet, such as
 the hexapod of M-TRAN modules, walks with type tripod. Legs: docs/modules.md.
 Reference: S. Buss, Introduction to inverse kinematics, 2009 (damped least squares); gaits and stance chosen.
@@ -62,13 +64,13 @@ void Legs::Model::fields(Fields& f) {
   f.number("speed", speed, {"m/s", -10, 10, "Speed forwards, instead of stride."});
   f.number("side", side, {"m/s", -10, 10, "Speed to the left."});
   f.number("turn", turn, {"rad/s", -10, 10, "Yaw rate, to the left."});
-  f.number_or("lift", lift, "usual", {"m", 0, 1, "Height of a foot in mid-swing; usual: 0.1 of the height of the stance."});
-  f.number_or("duty", duty, "usual", {"", 0, 0.95, "Share of the cycle in which a leg stands; usual: that of the gait."});
+  f.number_or("lift", lift, "usual", {"m", 1e-5, 1, "Height of a foot in mid-swing; usual: 0.1 of the height of the stance."});
+  f.number_or("duty", duty, "usual", {"", 0.01, 0.95, "Share of the cycle in which a leg stands; usual: that of the gait."});
   f.number("lean", lean,
            {"", 0, 1, "Share of half the track by which the body leans over the legs that stand, in walk and crawl."});
-  f.number_or(
-      "stance", stance, "usual",
-      {"", 0, 0.98, "Height of the hips in the stance, as a share of the length of a leg; usual: 0.75, or less near a stop."});
+  f.number_or("stance", stance, "usual",
+              {"", 0.1, 0.98,
+               "Height of the hips in the stance, as a share of the length of a leg; usual: 0.75, or less near a stop."});
   f.number("ramp", ramp, {"s", 0.1, 100, "Duration of the start, in which the motion grows from the stance."});
 }
 
@@ -130,6 +132,8 @@ Legs::Legs(const RobotInfo& robot, const Settings& settings) : s_(settings) {
         "an arm "
         "and a snake have none); set initial.angles so that the robot stands");
   }
+  if (s_.model.stance > 0 && robot.start_stated)
+    throw SettingError("model.stance", "stance and initial.angles are both given; expected one");
   if (s_.model.stride != 0 && s_.model.speed != 0)
     throw SettingError("model.speed", "stride and speed are both given; expected one");
   std::vector<LegKinematics> legs;
@@ -154,6 +158,14 @@ Legs::Legs(const RobotInfo& robot, const Settings& settings) : s_(settings) {
   way.lean = leans(s_.model.gait) ? s_.model.lean * track : 0;
   duty_ = s_.model.duty > 0 ? s_.model.duty : duty_of(s_.model.gait, robot.legs);
   lift_ = s_.model.lift > 0 ? s_.model.lift : kUsualLift * height;
+  double reach = std::numeric_limits<double>::infinity();
+  for (const LegKinematics& leg : legs) reach = std::min(reach, 2 * leg.length());
+  if (const double feet = way.velocity.norm() * duty_ / s_.frequency; feet > reach) {
+    throw SettingError(s_.model.stride != 0 ? "model.stride" : "model.speed",
+                       digits(way.velocity.norm()) + " m/s at " + digits(s_.frequency) + " Hz needs feet that move " +
+                           digits(feet) + " m in a stance; these legs reach " + digits(reach) +
+                           " m: take a higher frequency, a shorter stride or a smaller duty");
+  }
   const std::vector<double> phases = phases_of(s_.model.gait, robot.legs);
   for (std::size_t l = 0; l < legs.size(); ++l) {
     Step step{{robot.legs[l].joints.begin(), robot.legs[l].joints.end()}, phases[l], {}, 0};

@@ -12,6 +12,14 @@ namespace {
 constexpr int kStarts = 41;
 constexpr double kRoom = 0.15;  // rad, least distance from a stop
 
+/// Sign of the largest part of an axis, by which the angles of legs with mirrored axes differ.
+double sign_of(const JointInfo& joint) {
+  const Vec3 axis = vector_of(joint.axis);
+  Eigen::Index largest = 0;
+  axis.cwiseAbs().maxCoeff(&largest);
+  return axis[largest] < 0 ? -1 : 1;
+}
+
 /// A number from -1 to 1 that depends on the start and the joint's place in its leg alone.
 double drawn(int start, std::size_t joint) {
   const auto words = math::philox({static_cast<std::uint32_t>(start), static_cast<std::uint32_t>(joint), 0, 0}, {1, 0});
@@ -50,6 +58,31 @@ std::vector<Vec3> footing(const RobotInfo& robot, const std::vector<LegKinematic
   return points;
 }
 
+double spread(const std::vector<double>& values) {
+  const double count = static_cast<double>(values.size());
+  double mean = 0, square = 0;
+  for (const double value : values) mean += value / count;
+  for (const double value : values) square += (value - mean) * (value - mean) / count;
+  return std::sqrt(square);
+}
+
+/// Difference of the legs, m: standard deviation of the knees' distances from the hips, forwards or away from the middle of the
+/// robot, whichever differs less. Legs of dogs bend to one side, those of spiders outwards.
+double unlike(const RobotInfo& robot, const std::vector<LegKinematics>& legs, const std::vector<double>& q) {
+  const Vec3 up = vector_of(robot.up);
+  Vec3 middle = Vec3::Zero();
+  for (const LegKinematics& leg : legs) middle += leg.hip(q) / static_cast<double>(legs.size());
+  std::vector<double> forwards, outwards;
+  for (const LegKinematics& leg : legs) {
+    const Vec3 knee = leg.knee(q) - leg.hip(q);
+    Vec3 outward = leg.hip(q) - middle;
+    outward -= up * up.dot(outward);
+    forwards.push_back(knee.x());
+    outwards.push_back(outward.norm() > 0 ? knee.dot(outward.normalized()) : 0);
+  }
+  return std::min(spread(forwards), spread(outwards));
+}
+
 /// Angles with their cost, and the least distance of a joint of a leg from a stop, rad.
 struct Stance {
   std::vector<double> q;
@@ -58,12 +91,14 @@ struct Stance {
 
 Stance stance_at(const RobotInfo& robot, const std::vector<LegKinematics>& legs, double height,
                  const std::vector<double>& zero) {
-  constexpr double kError = 10, kStop = 0.3;  // weights
+  constexpr double kError = 10, kStop = 0.3, kUnlike = 1;  // weights
   constexpr double kDamping = 1e-2;
   constexpr int kRounds = 60;
   const std::vector<Vec3> points = footing(robot, legs, height, zero);
   Stance best;
-  for (int start = 0; start < kStarts; ++start) {
+  for (int n = 0; n < 2 * kStarts - 1; ++n) {  // each start with equal and with mirrored angles
+    const int start = (n + 1) / 2;
+    const bool mirrored = n % 2 == 0;
     std::vector<double> tried = zero;
     double cost = 0;
     double least = std::numeric_limits<double>::infinity();
@@ -73,7 +108,8 @@ Stance stance_at(const RobotInfo& robot, const std::vector<LegKinematics>& legs,
       for (std::size_t i = 0; i < joints.size(); ++i) {
         const auto [lo, hi] = ranges[i];
         const double middle = std::clamp(0.0, lo, hi);
-        const double by = start == 0 ? 0 : 0.35 * drawn(start, i) * (hi - lo);  // 0.7 of half the range
+        const double sign = !mirrored ? 1 : sign_of(robot.joints[static_cast<std::size_t>(joints[i])]);
+        const double by = start == 0 ? 0 : 0.35 * sign * drawn(start, i) * (hi - lo);  // 0.7 of half the range
         tried[static_cast<std::size_t>(joints[i])] = std::clamp(middle + by, lo, hi);
       }
       legs[l].reach(points[l], Mat3::Identity(), kDamping, kRounds, tried);
@@ -87,28 +123,38 @@ Stance stance_at(const RobotInfo& robot, const std::vector<LegKinematics>& legs,
       cost += kError * (points[l] - legs[l].foot(tried)).norm() / legs[l].length() + turned + (room < kRoom ? kStop : 0);
       least = std::min(least, room);
     }
+    cost += kUnlike * static_cast<double>(legs.size()) * unlike(robot, legs, tried) / legs.front().length();
     if (cost < best.cost) best = {tried, cost, least};
   }
   return best;
 }
 
-}  // namespace
-
-std::vector<double> stance_of(const RobotInfo& robot, const std::vector<LegKinematics>& legs, double height) {
-  std::vector<double> q(robot.joints.size());
-  for (std::size_t j = 0; j < q.size(); ++j) q[j] = std::clamp(robot.joints[j].start, robot.joints[j].lo, robot.joints[j].hi);
-  for (const Leg& leg : robot.legs) {
-    for (const std::int64_t j : leg.joints) {
-      if (robot.joints[static_cast<std::size_t>(j)].start != 0) return q;
-    }
-  }
-  if (height > 0) return stance_at(robot, legs, height, q).q;
+std::vector<double> chosen(const RobotInfo& robot, const std::vector<LegKinematics>& legs, double height,
+                           const std::vector<double>& start) {
+  if (robot.start_stated) return start;
+  if (height > 0) return stance_at(robot, legs, height, start).q;
   constexpr double kHeights[] = {0.75, 0.7, 0.65, 0.6, 0.55, 0.5};
   for (const double one : kHeights) {
-    const Stance found = stance_at(robot, legs, one, q);
+    const Stance found = stance_at(robot, legs, one, start);
     if (found.room >= kRoom) return found.q;
   }
-  return stance_at(robot, legs, kHeights[0], q).q;
+  return stance_at(robot, legs, kHeights[0], start).q;
+}
+
+}  // namespace
+
+std::vector<double> stance_of(const RobotInfo& robot, std::vector<LegKinematics>& legs, double height) {
+  constexpr int kRounds = 3;
+  std::vector<double> q(robot.joints.size());
+  for (std::size_t j = 0; j < q.size(); ++j) q[j] = std::clamp(robot.joints[j].start, robot.joints[j].lo, robot.joints[j].hi);
+  const std::vector<double> start = q;
+  for (int round = 0; round < kRounds; ++round) {
+    q = chosen(robot, legs, height, start);
+    bool changed = false;
+    for (LegKinematics& leg : legs) changed = leg.stand(q, vector_of(robot.up)) || changed;
+    if (!changed) break;
+  }
+  return q;
 }
 
 }  // namespace gaitlab::cpg

@@ -7,15 +7,18 @@
 
 namespace gaitlab::cpg {
 
-/// Angles of all joints, rad. If the scenario states an angle other than 0 for a joint of a leg, these are the angles of the
-/// start. Otherwise all feet are on one plane, below the hips, at `height` (share of the length of the shortest leg; 0: the
-/// largest of 0.75, 0.7 ... 0.5 at which no joint of a leg is within 0.15 rad of a stop, else 0.75), with the
-/// lateral distance that they have at zero angles. Legs whose first hinge is within 45 degrees of the vertical stand 0.6 of
-/// their length beside it, at two thirds of that height.
+/// Angles of all joints, rad. They are the angles of the start if the scenario states them. Otherwise all feet are on one
+/// plane, below the hips, at `height` (share of the length of the shortest leg; 0: the largest of 0.75, 0.7 ... 0.5 at which no
+/// joint of a leg is within 0.15 rad of a stop, else 0.75), with the lateral distance that they have at zero angles. Legs whose
+/// first hinge is within 45 degrees of the vertical stand 0.6 of their length beside it, at two thirds of that height.
 ///
-/// The angles follow from damped least squares from 41 starts, the same for every leg. The result is the one with the least
-/// cost,
-///     sum over legs of 10 |error| / length + mean |q| + 0.3 (if a joint is within 0.15 rad of a stop).
-std::vector<double> stance_of(const RobotInfo& robot, const std::vector<LegKinematics>& legs, double height);
+/// The angles follow from damped least squares from 41 starts, the same for every leg except for the signs of mirrored axes.
+/// The result is the one with the least cost,
+///     sum over legs of 10 |error| / length + mean |q| + 0.3 (if a joint is within 0.15 rad of a stop) + unlike / length,
+/// unlike: standard deviation of the distances from hip to knee, forwards or outwards, whichever is less.
+///
+/// The feet of `legs` become the elements that are lowest in the stance, and the stance is found again, in at most three
+/// rounds.
+std::vector<double> stance_of(const RobotInfo& robot, std::vector<LegKinematics>& legs, double height);
 
 }  // namespace gaitlab::cpg

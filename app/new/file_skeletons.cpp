@@ -68,7 +68,7 @@ robot:
 @DOCKS@@BASE@
 physics:
   engine: articulated      # bullet: an independent engine, for comparison
-  accuracy: 0.001          # of the motors' torques
+  accuracy: @ACCURACY@          # of the motors' torques
 
 @GROUND@
 @INITIAL@@CONTROLLER@cpg:

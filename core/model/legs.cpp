@@ -18,7 +18,7 @@ constexpr double kSole = 1e-3;       // m, height within which the lowest elemen
 /// Links from the trunk outwards, without branches.
 struct Chain {
   std::vector<std::size_t> links;
-  std::vector<double> distances;                         ///< between the joints that follow one another, m
+  std::vector<double> distances;  ///< between joints that follow one another, and from the last one to the foot, m
   double low = std::numeric_limits<double>::infinity();  ///< height of the lowest contact element of the last link, m
 
   [[nodiscard]] bool equals(const Chain& other) const {
@@ -26,7 +26,7 @@ struct Chain {
   }
 };
 
-/// A robot in its pose. Each member's cost is at most linear in the size of the robot.
+/// A robot in its pose.
 struct Posed {
   const Robot& robot;
   Kinematics at, zero;
@@ -64,6 +64,19 @@ struct Posed {
     return only.radius > 0 && only.centre.cross(link.axis).norm() < kSole;
   }
 
+  /// Middle of the lowest elements of a link, m, in the base frame at zero angles.
+  [[nodiscard]] Vec3 sole(std::size_t link) const {
+    const double low = lowest(link);
+    Vec3 sum = Vec3::Zero();
+    double count = 0;
+    for (const std::size_t e : of_link[link]) {
+      if (height(elements[e]) > low + kSole) continue;
+      sum += zero.point(link, elements[e].centre);
+      count += 1;
+    }
+    return sum / count;
+  }
+
   [[nodiscard]] std::vector<Chain> chains() const {
     std::vector<Chain> all;
     for (std::size_t end = 1; end < robot.links.size(); ++end) {
@@ -80,6 +93,7 @@ struct Posed {
       }
       std::ranges::reverse(chain.links);
       std::ranges::reverse(chain.distances);
+      chain.distances.push_back((sole(end) - zero.p[end]).norm());
       const auto driven = [&](std::size_t l) { return robot.joints[static_cast<std::size_t>(robot.links[l].joint)].driven(); };
       if (std::ranges::any_of(chain.links, driven)) all.push_back(std::move(chain));
     }
@@ -111,7 +125,7 @@ std::vector<Chain> walking(const Posed& posed) {
     models.clear();
     for (const Chain& one : chains) {
       const std::ptrdiff_t equal = std::ranges::count_if(chains, [&](const Chain& other) { return one.equals(other); });
-      if (one.distances.empty() || equal <= most) continue;
+      if (one.links.size() < 2 || equal <= most) continue;
       most = equal;
       models = {one};
     }
@@ -136,16 +150,11 @@ Leg leg_of(const Posed& posed, const Chain& chain) {
   }
   leg.tip = robot.links[chain.links.back()].joint;
   leg.hip = array_of(posed.zero.p[chain.links.front()]);
-  Vec3 sum = Vec3::Zero();
-  double count = 0;
+  leg.foot = array_of(posed.sole(chain.links.back()));
   for (const std::size_t e : posed.of_link[chain.links.back()]) {
-    const ContactElement& element = posed.elements[e];
-    if (posed.height(element) > chain.low + kSole) continue;
-    sum += posed.zero.point(element.link, element.centre);
-    count += 1;
-    leg.radius = element.radius;
+    const Vec3 at = posed.zero.point(chain.links.back(), posed.elements[e].centre);
+    leg.elements.push_back({at.x(), at.y(), at.z(), posed.elements[e].radius});
   }
-  leg.foot = array_of(sum / count);
   return leg;
 }
 
@@ -181,7 +190,8 @@ std::string place_name(std::size_t rank, std::size_t count) {
   if (rank == 0) return "front";
   if (rank + 1 == count) return "rear";
   if (count == 3) return "middle";
-  return std::to_string(rank + 1) + (rank == 1 ? "nd" : rank == 2 ? "rd" : "th");
+  const std::size_t last = rank / 10 % 10 == 1 ? 0 : (rank + 1) % 10;  // 11th, 12th, 13th
+  return std::to_string(rank + 1) + (last == 1 ? "st" : last == 2 ? "nd" : last == 3 ? "rd" : "th");
 }
 
 /// Gives the legs of one side their names and places, from front to rear. `most`: the largest distance forwards of all legs, m.
@@ -220,7 +230,7 @@ std::vector<Leg> legs_of(const Robot& robot, std::span<const double> q, const Ma
     widest = std::max(widest, std::abs(one.left));
   }
   for (std::size_t i = 0; i < legs.size(); ++i) {
-    const bool middle = std::abs(at[i].left) < kMidline * widest || widest < 0.05 * longest;
+    const bool middle = std::abs(at[i].left) < kMidline * widest || widest < kSole;
     legs[i].side = middle ? 0 : at[i].left > 0 ? 1 : -1;
     legs[i].angle = math::atan2(at[i].left, at[i].forward);
   }

@@ -11,7 +11,7 @@ namespace gaitlab {
 struct Robot;
 
 /// Legs of a robot whose joints have the angles `q` (rad) and whose base has the orientation `base` (base frame to world), from
-/// front to rear, with left before right. The robot must not have a fixed base.
+/// front to rear, with left before right.
 ///
 /// A chain begins at a link without children and goes towards the base, up to the first link with several children or to link
 /// 0. It is a leg if it has a motor, if its last link has contact elements and is not a wheel, and if it stands: its lowest

@@ -21,7 +21,7 @@ struct JointInfo {
   /// about this axis if the angle is positive.
   std::array<double, 3> axis = {};
   bool driven = true;  ///< false for a joint without a motor, whose set points and torques are not used
-  double start = 0;    ///< angle at the start, rad, as far as the scenario states one
+  double start = 0;    ///< angle at the start, rad, if the scenario states `initial.angles`; else 0
   [[nodiscard]] bool turns_freely() const { return hi == std::numeric_limits<double>::infinity(); }
 };
 
@@ -77,9 +77,10 @@ struct Leg {
   std::int64_t rank = 0, count = 1;  ///< number on its side, from the front, and legs on this side
   double angle = 0;                  ///< direction of the hip from the middle of all, rad, from forwards to the left
   std::array<double, 3> hip = {};    ///< origin of the first joint, m, in the base frame at zero angles
-  /// Middle of the contact elements that are lowest at the start, m, in the base frame at zero angles, and their radius, m.
+  /// Middle of the contact elements that are lowest at the start, m, in the base frame at zero angles.
   std::array<double, 3> foot = {};
-  double radius = 0;
+  /// Contact elements of the last link: position, m, in the base frame at zero angles, and radius, m.
+  std::vector<std::array<double, 4>> elements = {};
 };
 
 /// A robot as a tree of modules and joints, with its geometry at zero angles.
@@ -89,6 +90,7 @@ struct RobotInfo {
   std::vector<BodyInfo> bodies = {};
   std::vector<Leg> legs = {};              ///< from front to rear, left before right
   std::array<double, 3> up = {0, 0, 1};    ///< upward direction at the start, base frame
+  bool start_stated = false;               ///< true if the scenario states `initial.angles`
   std::vector<std::string> channels = {};  ///< names of the sensors' values in Measured::channels, such as `imu.gyro_x`
   double control_period = 0;               ///< s, as Measured::period
 };

@@ -320,21 +320,20 @@ void TypePresets::fill(const Entry& entry, void* settings, JointNames joints, Pr
   }
 }
 
-std::vector<DroppedFigures> dropped_figures(Kind kind, const Robot& robot, const std::vector<Node>& documents,
-                                            const TypePresets& presets, const Entry& entry) {
-  std::vector<DroppedFigures> dropped;
-  for (std::size_t type = 0; type < documents.size() && !presets.holds(entry); ++type) {
+std::vector<TypeFigures> stated_figures(Kind kind, const Robot& robot, const std::vector<Node>& documents) {
+  std::vector<TypeFigures> stated;
+  for (std::size_t type = 0; type < documents.size(); ++type) {
     const auto driven = [&](const Joint& joint) { return joint.driven() && robot.modules[joint.module].type == type; };
     if (std::ranges::none_of(robot.joints, driven)) continue;
-    DroppedFigures of{robot.types[type].name, type_of(map_of(documents[type], kind), kind), {}};
+    TypeFigures of{robot.types[type].name, type_of(map_of(documents[type], kind), kind), {}};
     for (const Node* map : preset_maps(documents[type], kind)) {
       for (const std::string& key : figures_of(map)) {
         if (std::ranges::find(of.keys, key) == of.keys.end()) of.keys.push_back(key);
       }
     }
-    if (!of.keys.empty()) dropped.push_back(std::move(of));
+    if (!of.keys.empty()) stated.push_back(std::move(of));
   }
-  return dropped;
+  return stated;
 }
 
 }  // namespace gaitlab

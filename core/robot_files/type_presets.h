@@ -13,8 +13,8 @@ namespace gaitlab {
 /// Maps of a module type with settings for a kind of plugin: first the map of the type, then the maps of its hinges.
 std::vector<const Node*> preset_maps(const Node& document, Kind kind);
 
-/// Motor values of a module type that no joint uses.
-struct DroppedFigures {
+/// Motor values of a module type.
+struct TypeFigures {
   std::string module, type;  ///< names of the module type and of the plugin
   std::vector<std::string> keys;
 };
@@ -89,9 +89,7 @@ class TypePresets {
   std::vector<const Node*> said_;      ///< maps that disagree with each other
 };
 
-/// Presets that no joint uses because the scenario's plugin is `entry`. One element per module type with a driven hinge, in the
-/// order of Robot::types.
-std::vector<DroppedFigures> dropped_figures(Kind kind, const Robot& robot, const std::vector<Node>& documents,
-                                            const TypePresets& presets, const Entry& entry);
+/// Values that module types state. One element per module type with a driven hinge, in the order of Robot::types.
+std::vector<TypeFigures> stated_figures(Kind kind, const Robot& robot, const std::vector<Node>& documents);
 
 }  // namespace gaitlab

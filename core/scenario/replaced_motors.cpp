@@ -8,15 +8,23 @@
 
 namespace gaitlab {
 
-ReplacedMotors::ReplacedMotors(const Node& root, const Scenario& scenario, const TypePresets& presets)
+ReplacedMotors::ReplacedMotors(const Node& root, const Scenario& scenario, const TypePresets& presets, bool servo)
     : place_(place_of(root, "actuator", "type")),
       actuator_(scenario.actuator.entry->name),
       source_(scenario.actuator_source),
       why_(presets.why()) {
   const Entry& entry = *scenario.actuator.entry;
-  if (presets.holds(entry)) return;
-  dropped_ = dropped_figures(Kind::actuator, *scenario.robot, *scenario.module_documents, presets, entry);
   const Node* const section = root.find("actuator");
+  std::vector<TypeFigures> stated = stated_figures(Kind::actuator, *scenario.robot, *scenario.module_documents);
+  if (presets.holds(entry)) {
+    if (!servo || section == nullptr) return;
+    for (TypeFigures& of : stated) {
+      std::erase_if(of.keys, [&](const std::string& key) { return section->find(key) != nullptr; });
+      if (!of.keys.empty()) kept_.push_back(std::move(of));
+    }
+    return;
+  }
+  dropped_ = std::move(stated);
   std::vector<std::string> assumed;  // keys with a default other than 0 that the section does not set
   for (const DefaultFigure& one : default_figures(entry)) {
     if (section != nullptr && section->find(one.key) != nullptr) continue;
@@ -31,8 +39,15 @@ ReplacedMotors::ReplacedMotors(const Node& root, const Scenario& scenario, const
 
 std::vector<Note> ReplacedMotors::notes() const {
   std::vector<Note> notes;
+  for (const TypeFigures& of : kept_) {
+    notes.push_back(
+        {place_, fmt::format("{} of the motor of module type {} {} beside the servo; give {} under actuator if the servo "
+                             "has another",
+                             joined(of.keys), clipped(of.module), of.keys.size() == 1 ? "stays" : "stay",
+                             of.keys.size() == 1 ? "it" : "them")});
+  }
   if (given_ && defaults_.empty()) return notes;
-  for (const DroppedFigures& of : dropped_) {
+  for (const TypeFigures& of : dropped_) {
     notes.push_back(
         {place_,
          fmt::format(

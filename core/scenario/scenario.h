@@ -24,6 +24,8 @@ namespace gaitlab {
 
 struct Initial {
   PerJoint angles, speeds;                    ///< rad, rad/s
+  bool stated = false;                        ///< true if the scenario states the angles; else they follow from the CPG
+  bool omitted = false;                       ///< true if `fields` leaves the angles out, because they are not stated
   Vec3 base_velocity = Vec3::Zero();          ///< velocity of the base frame's origin, world axes, m/s
   Vec3 base_angular_velocity = Vec3::Zero();  ///< angular velocity of the base, world axes, rad/s
   void fields(Fields& f);

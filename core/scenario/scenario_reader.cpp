@@ -209,7 +209,10 @@ void ScenarioReader::read_sections() {
   if (!given(root_, "trace", "columns")) scenario_.trace.columns = default_columns(scenario_);
   const auto concerns = [&](const char* section) { return reads(section); };
   constexpr std::array kOfPlugins{"physics", "contact", "supply", "actuator", "controller", "cpg", "sensors"};
+  const std::size_t before = problems_.size();
   if (std::ranges::any_of(kOfPlugins, concerns)) make_plugins(sections);
+  const bool made = problems_.size() == before && (!sections.has_cpg || sections.cpg.sound);
+  if (!start_given_ && !made) return;  // the start follows from a CPG that could not be made
   if (as_ != ReadAs::module_type) ScenarioChecks(root_, scenario_, catalog_, problems_).initial_angles();
 }
 
@@ -270,7 +273,8 @@ void ScenarioReader::tell_replaced_motors(const TypePresets& motors) {
   for (const Note& note : motor_notes_) std::erase(scenario_.notes, note);  // removes the notes on the template's motors
   motor_notes_.clear();
   if (!driven() || !scenario_.robot) return;
-  const ReplacedMotors replaced(root_, scenario_, motors);
+  const auto of_motors = [](const auto& section) { return section.first == "actuator"; };
+  const ReplacedMotors replaced(root_, scenario_, motors, std::ranges::any_of(with_models_, of_motors));
   motor_notes_ = replaced.notes();
   scenario_.notes.insert(scenario_.notes.end(), motor_notes_.begin(), motor_notes_.end());
   scenario_.actuator_source = replaced.source();
@@ -315,7 +319,8 @@ void ScenarioReader::make_plugins(const SectionFields& sections) {
   for (const Note* const old : {&cpg_note_, &controller_note_}) {  // of the template's plugins
     if (!old->text.empty()) std::erase(scenario_.notes, *old);
   }
-  if (!start_given_) scenario_.initial.angles = {};  // those of the template's gait
+  scenario_.initial.stated = start_given_;
+  if (!start_given_) scenario_.initial.angles = {};  // removes those of the template's gait
   const RobotInfo robot = plugin_info(scenario_);
   std::unique_ptr<Actuator> actuator;
   std::unique_ptr<Controller> controller;

@@ -36,7 +36,12 @@ std::optional<SourceLocation> set_place(const Node& node) {
 
 SourceLocation place_of_fault(const Node& root, const std::string& section, const std::string& key) {
   const Node* map = root.find(section);
-  const Node* value = map == nullptr ? nullptr : map->find(key);
+  const Node* value = map;
+  for (std::size_t from = 0; value != nullptr && from <= key.size();) {  // a key such as model.speed
+    const std::size_t dot = std::min(key.find('.', from), key.size());
+    value = value->find(key.substr(from, dot - from));
+    from = dot + 1;
+  }
   const std::optional<SourceLocation> place = value == nullptr ? std::nullopt : set_place(*value);
   return place ? *place : place_of(root, section, "type");
 }

@@ -164,12 +164,13 @@ RobotInfo plugin_info(const Scenario& scenario) {
   std::vector<double> start(robot.joints.size());
   for (std::size_t j = 0; j < start.size(); ++j) {
     JointInfo& joint = robot.joints[j];
-    joint.start = scenario.initial.angles[j];
+    if (scenario.initial.stated) joint.start = scenario.initial.angles[j];
     start[j] = std::clamp(joint.start, joint.lo, joint.hi);
   }
   const Mat3 base = rpy(scenario.orientation);
   robot.up = {base(2, 0), base(2, 1), base(2, 2)};
-  robot.legs = scenario.base == Base::fixed ? std::vector<Leg>() : legs_of(*scenario.robot, start, base);
+  robot.start_stated = scenario.initial.stated;
+  robot.legs = legs_of(*scenario.robot, start, base);
   for (SensorReading& reading : sensor_readings(scenario)) {
     if (reading.replaces == Replaces::nothing) robot.channels.push_back(std::move(reading.name));
   }

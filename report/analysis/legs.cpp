@@ -9,7 +9,8 @@
 namespace gaitlab::report {
 
 std::vector<Leg> legs_that_walk(const Scenario& scenario) {
-  if (!scenario.ground.exists() || scenario.contact.on == ContactSet::none) return {};
+  const bool stands = scenario.base != Base::fixed && scenario.ground.exists() && scenario.contact.on != ContactSet::none;
+  if (!stands) return {};
   return plugin_info(scenario).legs;
 }
 

@@ -8,7 +8,7 @@
 
 namespace gaitlab::report {
 
-/// Legs of a robot with contact elements and a ground. Empty for other robots.
+/// Legs of a robot without a fixed base, with contact elements and a ground. Empty for other robots.
 std::vector<Leg> legs_that_walk(const Scenario& scenario);
 
 /// Name of a leg for people: `front left`.

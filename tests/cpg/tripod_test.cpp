@@ -244,6 +244,7 @@ TEST(Legs, StartsInItsStanceAndRepeats) {
   }
   EXPECT_LT(high - low, 1e-4) << "all feet are on one plane";
   RobotInfo stated = known;  // the angles of the start are the stance
+  stated.start_stated = true;
   for (std::size_t j = 0; j < q.size(); ++j) stated.joints[j].start = q[j] + (j == 0 ? 0.05 : 0);
   Legs(stated, s).output(0, {}, later);
   for (std::size_t j = 0; j < q.size(); ++j) EXPECT_EQ(later[j], stated.joints[j].start);

@@ -38,7 +38,7 @@ class Numbers final : public Fields {
   };
   std::map<std::string, Found> found;
   std::vector<std::string> empty_abouts, required;
-  std::vector<std::string> not_stated;  ///< ratings with the value 0, which may be outside the range
+  std::vector<std::string> not_stated;  ///< ratings with the value 0, and words, which may be outside the range
 
   void visit(const Field& field) override {
     if (std::string_view(field.about).size() < 4 || !std::string_view(field.about).ends_with('.')) {
@@ -48,7 +48,10 @@ class Numbers final : public Fields {
       found.emplace(prefix_ + field.key, Found{value, spec, whole});
     };
     if (const auto* one = std::get_if<field::Number>(&field.value)) note(one->value, one->spec, false);
-    if (const auto* one = std::get_if<field::NumberOr>(&field.value)) note(one->value, one->spec, false);
+    if (const auto* one = std::get_if<field::NumberOr>(&field.value)) {
+      note(one->value, one->spec, false);
+      if (one->value == 0) not_stated.push_back(prefix_ + field.key);  // the word
+    }
     if (const auto* one = std::get_if<field::Integer>(&field.value)) note(static_cast<double>(one->value), one->spec, true);
     if (const auto* one = std::get_if<field::EachJoint>(&field.value)) {
       note(field::in_force(*one).common, one->spec, false);
@@ -168,7 +171,8 @@ TEST_P(Contract, EveryNumberIsReachedAndRefusesNan) {
     EXPECT_THROW((void)read_scenario(path, {full + "=.nan"}, catalog()), InputError) << full;
     // The value differs only slightly from the default, so that checks between several settings still pass.
     const double away = number.whole ? 1 : 1e-3 * std::max(1e-3, std::abs(number.value));
-    const double other = number.value + away <= number.spec.max ? number.value + away : number.value - away;
+    const double near = number.value + away <= number.spec.max ? number.value + away : number.value - away;
+    const double other = std::max(near, number.spec.min);
     const Scenario s = read_scenario(path, {full + "=" + number_text(other)}, catalog());
     EXPECT_EQ(numbers_of(*choice(s).entry, choice(s).settings.get()).found.at(key).value, other) << full;
     EXPECT_NE(resolved(s).find(number_text(other)), std::string::npos) << full;

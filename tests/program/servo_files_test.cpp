@@ -220,6 +220,19 @@ TEST(ServoFiles, AFileThatHidesAShippedOneHasANote) {
   EXPECT_EQ(hiding(read_scenario(file, {}, catalog())), 0) << "the same content hides nothing";
 }
 
+/// The continuous current of the servo of module y1 is not that of another servo.
+TEST(ServoFiles, ValuesOfTheModuleThatStayAreNoted) {
+  const auto noted = [](const std::vector<std::string>& sets) {
+    const Scenario s = shipped("library/y1-snake.yaml", sets);
+    return std::ranges::any_of(s.notes, [](const Note& one) {
+      return contains(one.text, "of the motor of module type y1 stay") && contains(one.text, "i_continuous");
+    });
+  };
+  EXPECT_FALSE(noted({}));
+  EXPECT_TRUE(noted({"actuator.model=xl330-m288"}));
+  EXPECT_FALSE(noted({"actuator.model=xl330-m288", "actuator.i_continuous=0"}));
+}
+
 TEST(ServoFiles, ErrorsNameTheNearestServo) {
   expect_refusal(with("type: servo, model: xl330-m28"), "no servo 'xl330-m28'; did you mean 'xl330-m288'?");
   expect_refusal(with("type: dc_motor, model: s3003"), "servo 's3003' is for actuator 'servo', not 'dc_motor'");

@@ -1,7 +1,7 @@
 """Legs of a robot and their names, `rear left`: docs/modules.md (legs), docs/report.md (`feet`)."""
 import numpy as np
 
-STANDS, EQUAL, MIDLINE, HUB, FLAT = 0.1, 0.01, 0.15, 0.05, 1e-3  # share of the height; m; two shares of widest and longest; m
+STANDS, EQUAL, MIDLINE, FLAT = 0.1, 0.01, 0.15, 1e-3  # share of the height; m; share of the widest or longest; m
 
 
 class Legs:
@@ -14,6 +14,8 @@ class Legs:
         still = np.zeros((1, 3))
         base = record.rotation()[:1]
         q = record.pose("angle")[:1]
+        if "angles" not in record.scenario["initial"]:  # the start follows from the gait, and the gait from the legs at 0
+            q = np.array([[min(max(0.0, low), high) for low, high in record.robot.ranges]])
         self.at = self.robot.move(still, base, still, still, q, np.zeros_like(q))
         self.zero = self.robot.move(still, np.eye(3)[None], still, still, np.zeros_like(q), np.zeros_like(q))
         self.gather()
@@ -58,6 +60,7 @@ class Legs:
                 chain.insert(0, self.parent[chain[0]])
             if any(self.robot.driven[joint] for joint in chain):
                 at = [self.zero.hinge[joint][0][0] for joint in chain]
+                at.append(self.sole(end))
                 yield chain, [np.linalg.norm(b - a) for a, b in zip(at, at[1:])]
 
     def standing(self):
@@ -66,7 +69,7 @@ class Legs:
         models = [chain for chain in chains if self.low[chain[0][-1]] <= self.ground]
         count = lambda: sum(any(equal(model, chain) for model in models) for chain in chains)
         if count() < 2:
-            groups = [(sum(equal(one, other) for other in chains), -k) for k, one in enumerate(chains) if one[1]]
+            groups = [(sum(equal(one, other) for other in chains), -k) for k, one in enumerate(chains) if len(one[0]) > 1]
             most = max(groups, default=(0, 0))
             models = [chains[-most[1]]] if most[0] >= 4 else []
         elif len(chains) == 2 and self.low.get(None, np.inf) <= self.ground:
@@ -93,7 +96,7 @@ class Legs:
         if np.linalg.norm(at, axis=1).max() <= FLAT:
             at = place(np.array([self.sole(chain[-1]) for chain in chains]))
         longest, widest = abs(at).max(axis=0)
-        side = [0 if abs(y) < MIDLINE * widest or widest < HUB * longest else 1 if y > 0 else -1 for _, y in at]
+        side = [0 if abs(y) < MIDLINE * widest or widest < FLAT else 1 if y > 0 else -1 for _, y in at]
         for here, word in ((1, " left"), (0, ""), (-1, " right")):
             own = sorted((k for k, one in enumerate(side) if one == here), key=lambda k: -at[k][0])
             for rank, k in enumerate(own):
