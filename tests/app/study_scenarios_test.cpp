@@ -200,12 +200,12 @@ TEST_F(StudyScenarios, WhatOneLacksIsToldWithItsName) {
   const std::string lag = "parameters: {cpg.phase_lag: {low: 0.5, high: 1.5, count: 2}}\n";
   EXPECT_EQ(error("parameters: {cpg.model.coupling: {low: 1, high: 2, count: 2}}\n", head),
             "e.yaml:3:14: error: unknown key 'coupling'; coupling is a key of cpg equations, hopf, "
-            "kuramoto_amplitude, legs, matsuoka, phase_oscillator, van_der_pol (in scenario sine)\n");
+            "kuramoto_amplitude, matsuoka, phase_oscillator, van_der_pol (in scenario sine)\n");
   EXPECT_EQ(error("parameters: {cpg.phase_lagg: {low: 1, high: 2, count: 2}}\n", head),
             "e.yaml:3:14: error: unknown key 'phase_lagg'; did you mean 'phase_lag'?\n");
   EXPECT_EQ(error("set: [cpg.model.coupling=2]\n" + lag, head),
             "e.yaml:3:7: error: unknown key 'coupling'; coupling is a key of cpg equations, hopf, "
-            "kuramoto_amplitude, legs, matsuoka, phase_oscillator, van_der_pol (in scenario sine)\n");
+            "kuramoto_amplitude, matsuoka, phase_oscillator, van_der_pol (in scenario sine)\n");
   EXPECT_EQ(error(lag + "constraints: ['torque.peak[m2/active] <= 1']\n"),
             "e.yaml:4:16: error: no joint is called 'm2/active'; did you mean 'm0/active'? (in scenario short)\n");
   EXPECT_EQ(error(lag + "stop: ['torque.peak[m2/active] > 1']\n"),
