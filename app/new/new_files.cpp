@@ -236,11 +236,11 @@ std::string scenario_text(const NewFileArguments& arguments, const NewRobot& rob
   return text;
 }
 
-/// The reason why the scenario in the file is not feasible; empty if it is feasible, or if a run would take long.
-std::string shortfall(const std::string& file, Catalog& catalog) try {
+/// The reason why the scenario in the file is not feasible; empty if it is feasible. Nothing if a run would take long.
+std::optional<std::string> shortfall(const std::string& file, Catalog& catalog) try {
   constexpr double kLong = 3;  // s, of one of three runs
   const Scenario s = read_scenario(file, {}, catalog);
-  if (estimated_seconds(s) > kLong) return "";
+  if (estimated_seconds(s) > kLong) return {};
   Simulation simulation({&s, 1});
   simulation.run();
   const Recording recording = simulation.take_recording(0);
@@ -260,11 +260,11 @@ std::string write_scenario(const NewFileArguments& arguments, const NewRobot& ro
     return scenario_text(arguments, robot, draft, "It runs without changes, to a verdict");
   };
   std::string file = write_new(arguments, text(kDrafts[0]));
-  const std::string why = shortfall(file, catalog);
+  const std::string why = shortfall(file, catalog).value_or("");
   if (why.empty()) return file;
   for (std::size_t i = 1; i < std::size(kDrafts); ++i) {
     write_file(file, text(kDrafts[i]));
-    if (shortfall(file, catalog).empty()) return file;
+    if (shortfall(file, catalog) == "") return file;
   }
   write_file(file, scenario_text(arguments, robot, kDrafts[0], "As it stands " + why));
   say(file, "note", "as it stands " + why);
