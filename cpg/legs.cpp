@@ -183,9 +183,10 @@ void Legs::describe(const RobotInfo& robot, const Way& way, double height) {
   const double least = way.velocity.norm() * duty_ / s_.frequency;
   for (std::size_t l = 0; l < steps_.size(); ++l) {
     const double whole = std::max(least, lift_);
-    if (steps_[l].error > kMissed * whole)
+    if (steps_[l].error > kMissed * whole) {
       missed += (missed.empty() ? "; feet miss their ways: " : ", ") + robot.legs[l].name + " by " +
                 digits(1e3 * steps_[l].error) + " mm";
+    }
   }
   note_ += missed;
 }

@@ -180,7 +180,7 @@ std::vector<Place> places(const Posed& posed, const std::vector<Leg>& legs, cons
     for (Place& one : all) one = {one.forward - mean.forward, one.left - mean.left};
     return all;
   };
-  const std::vector<Place> hips = seen([&](std::size_t i) { return vector_of(legs[i].hip); });
+  std::vector<Place> hips = seen([&](std::size_t i) { return vector_of(legs[i].hip); });
   const auto apart = [](const Place& one) { return one.forward * one.forward + one.left * one.left > kSole * kSole; };
   if (std::ranges::any_of(hips, apart)) return hips;
   return seen([&](std::size_t i) { return posed.zero.p[0] + vector_of(legs[i].foot); });  // all hips are on one point

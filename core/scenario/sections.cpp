@@ -56,10 +56,11 @@ void BaseFields::fields(Fields& f) {
 }
 
 void Initial::fields(Fields& f) {
-  if (!omitted)
+  if (!omitted) {
     f.per_joint("angles", angles,
                 {"rad", -1000, 1000,
                  "Joint angles, within each hinge's range. Default: 0; with a CPG that has a ramp, its first set points."});
+  }
   f.per_joint("speeds", speeds, {"rad/s", -1e4, 1e4, "Joint speeds."});
   f.vector("base_velocity", span_of(base_velocity), {"m/s", -1e4, 1e4, "Velocity of the base frame's origin, world axes."});
   f.vector("base_angular_velocity", span_of(base_angular_velocity),

@@ -112,9 +112,10 @@ void expect_walks(const Walked& w, double travel_a_second) {
 TEST(Walk, HexapodWalksUprightOnItsTripods) {
   ASSERT_EQ(hexapod().legs.size(), 6U);
   std::vector<std::int64_t> modules;
-  for (const Leg& leg : hexapod().legs)
+  for (const Leg& leg : hexapod().legs) {
     modules.push_back(
         static_cast<std::int64_t>(hexapod().scenario.robot->bodies[static_cast<std::size_t>(leg.bodies[0])].module));
+  }
   EXPECT_EQ(modules, (std::vector<std::int64_t>{9, 10, 7, 8, 5, 6}));  // from the front, left before right
   expect_walks(hexapod(), 0.025);                                      // at least 0.5 m in 20 s
 }
