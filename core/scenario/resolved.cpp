@@ -52,8 +52,6 @@ std::string resolved(const Scenario& scenario, FilePaths paths) {
   Scenario copy = scenario;  // the visitor also reads scenarios, and therefore needs write access
   if (paths == FilePaths::names) name_height_file(copy.ground);
   const std::vector<std::string> joints = joint_names(*scenario.robot);
-  // A start that follows from the gait follows again when the text is read.
-  copy.initial.stated = copy.initial.stated || copy.initial.angles == PerJoint{};
   Writer writer(joints);
   writer.add("gaitlab", scalar_node("1"));
   writer.add("name", text_node(scenario.name));

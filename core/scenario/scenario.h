@@ -25,10 +25,12 @@ namespace gaitlab {
 struct Initial {
   PerJoint angles, speeds;                    ///< rad, rad/s
   bool stated = false;                        ///< true if the scenario states the angles; else they follow from the CPG
-  bool omitted = false;                       ///< true if `fields` leaves the angles out, because they are not stated
   Vec3 base_velocity = Vec3::Zero();          ///< velocity of the base frame's origin, world axes, m/s
   Vec3 base_angular_velocity = Vec3::Zero();  ///< angular velocity of the base, world axes, rad/s
+  /// True if the angles follow from the CPG and are not 0.
+  [[nodiscard]] bool follows() const { return !stated && !(angles == PerJoint{}); }
   void fields(Fields& f);
+  void motion(Fields& f);  ///< all keys except `angles`
 };
 
 /// Extent of the estimate of the torque error that the steps cause (core/simulation/step_error.h).

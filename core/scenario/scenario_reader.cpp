@@ -57,7 +57,7 @@ const Scenario& ScenarioReader::read(std::string text, const std::vector<std::st
   if (problems_.size() > before) raise();  // keys of a servo that is missing or wrong would be reported as missing
   read_name(head);
   read_body();
-  start_given_ = given(root_, "initial", "angles").has_value();
+  scenario_.initial.stated = given(root_, "initial", "angles").has_value();
   read_sections();
   raise();
   insert_torque_off(root_, scenario_);
@@ -82,7 +82,7 @@ Scenario ScenarioReader::with(const std::vector<std::string>& sets) const {
   own.raise();
   own.touched_ = TouchedSections(sections_of(sets));
   own.touched_.restart(own.scenario_);
-  own.start_given_ = given(own.root_, "initial", "angles").has_value();
+  own.scenario_.initial.stated = given(own.root_, "initial", "angles").has_value();
   own.read_sections();
   own.raise();
   own.read_changes();
@@ -212,7 +212,7 @@ void ScenarioReader::read_sections() {
   const std::size_t before = problems_.size();
   if (std::ranges::any_of(kOfPlugins, concerns)) make_plugins(sections);
   const bool made = problems_.size() == before && (!sections.has_cpg || sections.cpg.sound);
-  if (!start_given_ && !made) return;  // the start follows from a CPG that could not be made
+  if (!scenario_.initial.stated && !made) return;  // the start follows from a CPG that could not be made
   if (as_ != ReadAs::module_type) ScenarioChecks(root_, scenario_, catalog_, problems_).initial_angles();
 }
 
@@ -319,8 +319,7 @@ void ScenarioReader::make_plugins(const SectionFields& sections) {
   for (const Note* const old : {&cpg_note_, &controller_note_}) {  // of the template's plugins
     if (!old->text.empty()) std::erase(scenario_.notes, *old);
   }
-  scenario_.initial.stated = start_given_;
-  if (!start_given_) scenario_.initial.angles = {};  // removes those of the template's gait
+  if (!scenario_.initial.stated) scenario_.initial.angles = {};  // removes the start of the template's gait
   const RobotInfo robot = plugin_info(scenario_);
   std::unique_ptr<Actuator> actuator;
   std::unique_ptr<Controller> controller;
@@ -336,7 +335,7 @@ void ScenarioReader::make_plugins(const SectionFields& sections) {
   attempt([&] {
     if (!sections.has_cpg || !sections.cpg.sound) return;
     const auto cpg = make_cpg(scenario_.cpg, robot);
-    if (!start_given_) scenario_.initial.angles = start_of(cpg.get());
+    if (!scenario_.initial.stated) scenario_.initial.angles = start_of(cpg.get());
     if (!cpg || cpg->note().empty()) return;
     cpg_note_ = {{path_}, "cpg: " + cpg->note()};
     scenario_.notes.push_back(cpg_note_);

@@ -72,7 +72,6 @@ class ScenarioReader {
   std::vector<Note> motor_notes_, servo_notes_;
   std::vector<std::pair<std::string, Node>> with_models_;  ///< sections that name a servo, as written
   TouchedSections touched_;
-  bool start_given_ = false;  ///< true if the scenario states initial.angles
 };
 
 }  // namespace gaitlab

@@ -56,11 +56,13 @@ void BaseFields::fields(Fields& f) {
 }
 
 void Initial::fields(Fields& f) {
-  if (!omitted) {
-    f.per_joint("angles", angles,
-                {"rad", -1000, 1000,
-                 "Joint angles, within each hinge's range. Default: 0; with a CPG that has a ramp, its first set points."});
-  }
+  f.per_joint("angles", angles,
+              {"rad", -1000, 1000,
+               "Joint angles, within each hinge's range. Default: 0; with a CPG that has a ramp, its first set points."});
+  motion(f);
+}
+
+void Initial::motion(Fields& f) {
   f.per_joint("speeds", speeds, {"rad/s", -1e4, 1e4, "Joint speeds."});
   f.vector("base_velocity", span_of(base_velocity), {"m/s", -1e4, 1e4, "Velocity of the base frame's origin, world axes."});
   f.vector("base_angular_velocity", span_of(base_angular_velocity),
@@ -304,6 +306,12 @@ SectionFields::SectionFields(Scenario& s, const Catalog* catalog, const Problems
   };
 }
 
+/// The keys of `initial` without the angles.
+struct MotionAtStart {
+  Initial& initial;
+  void fields(Fields& f) const { initial.motion(f); }
+};
+
 void SectionFields::fields(Fields& f) {
   GroundFields ground{scenario.ground, writing};
   if (!writing || scenario.tolerances.any()) {
@@ -315,8 +323,12 @@ void SectionFields::fields(Fields& f) {
             "Differences of this robot from the drawings, by part, such as mass: {m3: 1.05}. Numbers that are not stated here "
             "are drawn within the tolerances.");
   }
-  scenario.initial.omitted = writing && !scenario.initial.stated;
-  f.group("initial", scenario.initial, "State at the start.");
+  MotionAtStart motion{scenario.initial};
+  if (writing && scenario.initial.follows()) {  // angles that follow from the gait follow again when the text is read
+    f.group("initial", motion, "State at the start.");
+  } else {
+    f.group("initial", scenario.initial, "State at the start.");
+  }
   f.group("physics", physics, "Engine and time integration.");
   f.group("ground", ground, "The ground.");
   f.group("contact", scenario.contact, "Contact of the robot with the ground.");
