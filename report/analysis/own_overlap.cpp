@@ -48,35 +48,39 @@ bool on_one_hinge(const ModuleType& type, std::size_t a, std::size_t b) {
 
 }  // namespace
 
-DesignOverlap::DesignOverlap(const ModuleType& type) : type_(type) {
-  const std::vector<Pose> poses = poses_at(type, std::vector<double>(type.hinges.size(), 0.0));
-  for (std::size_t b = 0; b < type.bodies.size(); ++b) {
-    Placed body{shapes_of(type.bodies[b], poses[b])};
-    std::size_t corners = 0;
-    for (const Convex& shape : body.shapes) {
-      for (const Vec3& vertex : shape.vertices) body.centre += vertex;
-      corners += shape.vertices.size();
-    }
-    if (corners > 0) body.centre /= static_cast<double>(corners);
-    for (const Convex& shape : body.shapes) {
-      for (const Vec3& vertex : shape.vertices) body.reach = std::max(body.reach, (vertex - body.centre).norm() + shape.radius);
-    }
-    bodies_.push_back(std::move(body));
+Placed::Placed(std::vector<Convex> of) : shapes(std::move(of)) {
+  std::size_t corners = 0;
+  for (const Convex& shape : shapes) {
+    for (const Vec3& vertex : shape.vertices) centre += vertex;
+    corners += shape.vertices.size();
+  }
+  if (corners > 0) centre /= static_cast<double>(corners);
+  for (const Convex& shape : shapes) {
+    for (const Vec3& vertex : shape.vertices) reach = std::max(reach, (vertex - centre).norm() + shape.radius);
   }
 }
 
-double DesignOverlap::depth(std::size_t a, std::size_t b) {
-  const auto [first, second] = std::minmax(a, b);
-  const Placed &one = bodies_[first], &other = bodies_[second];
-  if ((one.centre - other.centre).norm() > one.reach + other.reach) return 0;
-  const auto [known, fresh] = known_.emplace(std::pair(first, second), 0);
-  if (!fresh) return known->second;
+bool Placed::clear_of(const Placed& other) const { return (centre - other.centre).norm() > reach + other.reach; }
+
+double depth_of(const Placed& one, const Placed& other) {
+  if (one.clear_of(other)) return 0;
   double deepest = 0;
   for (const Convex& shape : one.shapes) {
     for (const Convex& with : other.shapes) deepest = std::max(deepest, penetration(shape, with, deepest));
   }
-  known->second = deepest;
   return deepest;
+}
+
+DesignOverlap::DesignOverlap(const ModuleType& type) : type_(type) {
+  const std::vector<Pose> poses = poses_at(type, std::vector<double>(type.hinges.size(), 0.0));
+  for (std::size_t b = 0; b < type.bodies.size(); ++b) bodies_.emplace_back(shapes_of(type.bodies[b], poses[b]));
+}
+
+double DesignOverlap::depth(std::size_t a, std::size_t b) {
+  if (bodies_[a].clear_of(bodies_[b])) return 0;
+  const auto [known, fresh] = known_.emplace(std::minmax(a, b), 0);
+  if (fresh) known->second = depth_of(bodies_[known->first.first], bodies_[known->first.second]);
+  return known->second;
 }
 
 std::vector<std::pair<std::size_t, std::size_t>> DesignOverlap::pairs() {
@@ -155,14 +159,9 @@ std::vector<std::pair<std::size_t, std::size_t>> always_overlapping(const Module
       angles.push_back(lo + share * (hi - lo));
     }
     const std::vector<Pose> poses = poses_at(type, angles);
-    const auto apart = [&](const auto& pair) {
-      double deepest = 0;
-      for (const Convex& one : shapes_of(type.bodies[pair.first], poses[pair.first])) {
-        for (const Convex& other : shapes_of(type.bodies[pair.second], poses[pair.second]))
-          deepest = std::max(deepest, penetration(one, other, deepest));
-      }
-      return deepest <= kDeep;
-    };
+    std::vector<Placed> bodies;
+    for (std::size_t b = 0; b < type.bodies.size(); ++b) bodies.emplace_back(shapes_of(type.bodies[b], poses[b]));
+    const auto apart = [&](const auto& pair) { return depth_of(bodies[pair.first], bodies[pair.second]) <= kDeep; };
     std::erase_if(pairs, apart);
   }
   return pairs;

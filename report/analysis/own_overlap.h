@@ -16,6 +16,18 @@ namespace gaitlab::report {
 
 inline constexpr double kTurned = std::numbers::sqrt2;  ///< overlap by design / overlap with all hinges at 0
 
+/// The shapes of a body in the frame of the root.
+struct Placed {
+  explicit Placed(std::vector<Convex> of);
+  [[nodiscard]] bool clear_of(const Placed& other) const;  ///< true if the balls are apart
+  std::vector<Convex> shapes;
+  Vec3 centre = Vec3::Zero();  ///< m, centre of a ball around the shapes
+  double reach = 0;            ///< m, radius of the ball
+};
+
+/// Depth of the deepest overlap of two bodies, m; 0 if they are apart.
+double depth_of(const Placed& one, const Placed& other);
+
 /// The bodies of a module type with all hinges at 0.
 class DesignOverlap {
  public:
@@ -26,11 +38,6 @@ class DesignOverlap {
   std::vector<std::pair<std::size_t, std::size_t>> pairs();
 
  private:
-  struct Placed {
-    std::vector<Convex> shapes;  ///< shapes in the frame of the root
-    Vec3 centre = Vec3::Zero();  ///< m, centre of a ball around the shapes
-    double reach = 0;            ///< m, radius of the ball
-  };
   const ModuleType& type_;
   std::vector<Placed> bodies_;
   std::map<std::pair<std::size_t, std::size_t>, double> known_ = {};
