@@ -62,8 +62,8 @@ double duty_of(Gait gait, const std::vector<Leg>& legs) {
 }
 
 std::vector<double> phases_of(Gait gait, const std::vector<Leg>& legs) {
-  constexpr double kAhead = 1e-6;  // cosine beyond which a leg is in front of the middle
-  constexpr double kGallop = 0.1;  // share by which the right legs lead the left ones
+  constexpr double kAhead = 1e-6;  // a leg with a larger cosine is in front of the middle
+  constexpr double kGallop = 0.1;  // lead of the right legs
   const std::vector<std::size_t> number = around(legs);
   const bool even = legs.size() % 2 == 0;
   const bool alternates = gait == Gait::trot || gait == Gait::tripod || gait == Gait::alternate;

@@ -2,12 +2,9 @@
 #pragma once
 #include <vector>
 
-#include "core/model/frames.h"
-#include "core/plugin/robot_info.h"
+#include "core/model/legs.h"
 
 namespace gaitlab::cpg {
-
-inline Vec3 vector_of(const std::array<double, 3>& a) { return {a[0], a[1], a[2]}; }
 
 /// A leg in the base frame. Joints between base and leg, and passive joints, keep the angles that the caller gives.
 class LegKinematics {
@@ -29,8 +26,8 @@ class LegKinematics {
   /// Makes the middle of the contact elements that are lowest (to 1 mm) at the angles `q` the foot. False if it is the foot.
   bool stand(const std::vector<double>& q, const Vec3& up);
 
-  /// Moves the angles of the leg's joints, within their ranges and within 2.5 rad of 0 (or up to their start) where a range is
-  /// wider, until the foot is nearest to `target`, by at most `rounds` steps of damped least squares
+  /// Moves the angles of the leg's joints, within their ranges, and wider ranges cut to 2.5 rad on each side of 0 or to the
+  /// start, until the foot is nearest to `target`, by at most `rounds` steps of damped least squares
   ///     dq = J' W' (W J J' W' + d^2 1)^-1 W e,   e = target - foot, |dq_j| <= 0.3 rad.
   /// `weights` (W) has the weights of directions in its rows. `damping` is d as a share of the norm of W J.
   /// Reference: S. Buss, Introduction to inverse kinematics with Jacobian transpose, pseudoinverse and damped least squares

@@ -12,7 +12,7 @@ namespace gaitlab::cpg {
 
 namespace {
 constexpr double kUsualLift = 0.1;  // share of the height of the stance
-constexpr double kMissed = 0.2;     // share of the way of a foot by which it may miss this way without a note
+constexpr double kMissed = 0.2;     // largest error of a foot without a note, as a share of the distance that it moves
 
 std::string digits(double value) {
   std::array<char, 32> text = {};
@@ -65,9 +65,9 @@ void Legs::Model::fields(Fields& f) {
   f.number("side", side, {"m/s", -10, 10, "Speed to the left."});
   f.number("turn", turn, {"rad/s", -10, 10, "Yaw rate, to the left."});
   f.number_or("lift", lift, "usual", {"m", 1e-5, 1, "Height of a foot in mid-swing; usual: 0.1 of the height of the stance."});
-  f.number_or("duty", duty, "usual", {"", 0.01, 0.95, "Share of the cycle in which a leg stands; usual: that of the gait."});
+  f.number_or("duty", duty, "usual", {"", 0.01, 0.95, "Share of the cycle in which a leg stands; usual: the gait's."});
   f.number("lean", lean,
-           {"", 0, 1, "Share of half the track by which the body leans over the legs that stand, in walk and crawl."});
+           {"", 0, 1, "Lean of the body over the legs that stand, as a share of half the track; only walk and crawl."});
   f.number_or("stance", stance, "usual",
               {"", 0.1, 0.98,
                "Height of the hips in the stance, as a share of the length of a leg; usual: 0.75, or less near a stop."});
@@ -128,9 +128,8 @@ void Legs::plan(const LegKinematics& leg, const Way& way, Step& step) const {
 Legs::Legs(const RobotInfo& robot, const Settings& settings) : s_(settings) {
   if (robot.legs.empty()) {
     throw std::invalid_argument(
-        "found no legs: no two chains of links without branches end near the ground at the start (a robot with a fixed base, "
-        "an arm "
-        "and a snake have none); set initial.angles so that the robot stands");
+        "found no legs: no two chains of links without branches end near the ground at the start (an arm and a snake have "
+        "none); set initial.angles so that the robot stands");
   }
   if (s_.model.stance > 0 && robot.start_stated)
     throw SettingError("model.stance", "stance and initial.angles are both given; expected one");
@@ -141,9 +140,7 @@ Legs::Legs(const RobotInfo& robot, const Settings& settings) : s_(settings) {
   stance_ = stance_of(robot, legs, s_.model.stance);
   Way way;
   way.up = vector_of(robot.up);
-  Vec3 forward = Vec3::UnitX() - way.up * way.up.x();
-  if (forward.norm() < 0.5) forward = Vec3::UnitY() - way.up * way.up.y();
-  forward.normalize();
+  const Vec3 forward = forwards(way.up);
   way.left = way.up.cross(forward);
   way.middle.setZero();
   for (const LegKinematics& leg : legs) way.middle += leg.foot(stance_) / static_cast<double>(legs.size());

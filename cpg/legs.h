@@ -23,7 +23,7 @@ class Legs final : public Cpg {
   static const char* const kManual;
 
   /// Throws std::invalid_argument for a robot without legs, and the errors of phases_of. Throws SettingError if stride and
-  /// speed are both given.
+  /// speed, or stance and initial.angles, are both given, and for a way that is longer than twice the shortest leg.
   Legs(const RobotInfo& robot, const Settings& settings);
   void output(double t, In, Out setpoint) const override;
   [[nodiscard]] std::string note() const override { return note_; }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/math/philox.h"
 
@@ -12,7 +13,7 @@ namespace {
 constexpr int kStarts = 41;
 constexpr double kRoom = 0.15;  // rad, least distance from a stop
 
-/// Sign of the largest part of an axis, by which the angles of legs with mirrored axes differ.
+/// Sign of the largest part of an axis: legs with mirrored axes have angles of other signs.
 double sign_of(const JointInfo& joint) {
   const Vec3 axis = vector_of(joint.axis);
   Eigen::Index largest = 0;
@@ -29,7 +30,7 @@ double drawn(int start, std::size_t joint) {
 /// Points on which the feet shall stand, m, base frame.
 std::vector<Vec3> footing(const RobotInfo& robot, const std::vector<LegKinematics>& legs, double height,
                           const std::vector<double>& q) {
-  constexpr double kBeside = 0.6;       // share of the length by which a foot is beside a vertical hinge
+  constexpr double kBeside = 0.6;       // distance of a foot from a vertical hinge, as a share of the length
   constexpr double kFlatter = 2.0 / 3;  // share of the height of other legs
   constexpr double kSteep = 0.7;        // cosine of 45 degrees
   constexpr double kWidest = 0.5;       // share of the length
@@ -47,8 +48,7 @@ std::vector<Vec3> footing(const RobotInfo& robot, const std::vector<LegKinematic
     if (vertical && from_middle.norm() > 0) beside = from_middle.normalized() * kBeside * leg.length();
     beside -= up * up.dot(beside);
     if (!vertical) {  // only its lateral part
-      Vec3 lateral = up.cross(Vec3::UnitX());
-      lateral = lateral.norm() > 0.5 ? lateral.normalized() : Vec3::UnitY();
+      const Vec3 lateral = up.cross(forwards(up));
       beside = lateral * std::clamp(beside.dot(lateral), -kWidest * leg.length(), kWidest * leg.length());
     }
     points.push_back(hip + beside);
@@ -67,20 +67,21 @@ double spread(const std::vector<double>& values) {
 }
 
 /// Difference of the legs, m: standard deviation of the knees' distances from the hips, forwards or away from the middle of the
-/// robot, whichever differs less. Legs of dogs bend to one side, those of spiders outwards.
+/// robot, whichever differs less. Dogs bend all legs to one side, spiders outwards.
 double unlike(const RobotInfo& robot, const std::vector<LegKinematics>& legs, const std::vector<double>& q) {
   const Vec3 up = vector_of(robot.up);
   Vec3 middle = Vec3::Zero();
   for (const LegKinematics& leg : legs) middle += leg.hip(q) / static_cast<double>(legs.size());
-  std::vector<double> forwards, outwards;
+  const Vec3 forward = forwards(up);
+  std::vector<double> ahead, outwards;
   for (const LegKinematics& leg : legs) {
     const Vec3 knee = leg.knee(q) - leg.hip(q);
     Vec3 outward = leg.hip(q) - middle;
     outward -= up * up.dot(outward);
-    forwards.push_back(knee.x());
+    ahead.push_back(knee.dot(forward));
     outwards.push_back(outward.norm() > 0 ? knee.dot(outward.normalized()) : 0);
   }
-  return std::min(spread(forwards), spread(outwards));
+  return std::min(spread(ahead), spread(outwards));
 }
 
 /// Angles with their cost, and the least distance of a joint of a leg from a stop, rad.

@@ -1,4 +1,4 @@
-// Angles at which a robot stands on its legs.
+// Joint angles of a robot that stands on its legs.
 #pragma once
 #include <vector>
 
@@ -8,9 +8,9 @@
 namespace gaitlab::cpg {
 
 /// Angles of all joints, rad. They are the angles of the start if the scenario states them. Otherwise all feet are on one
-/// plane, below the hips, at `height` (share of the length of the shortest leg; 0: the largest of 0.75, 0.7 ... 0.5 at which no
-/// joint of a leg is within 0.15 rad of a stop, else 0.75), with the lateral distance that they have at zero angles. Legs whose
-/// first hinge is within 45 degrees of the vertical stand 0.6 of their length beside it, at two thirds of that height.
+/// plane, below the hips, at `height` (share of the length of the shortest leg; 0: the largest of 0.75, 0.7 ... 0.5 that keeps
+/// all joints of legs 0.15 rad from their stops, else 0.75), with the lateral distance that they have at zero angles. Legs
+/// whose first hinge is within 45 degrees of the vertical stand 0.6 of their length beside it, at two thirds of that height.
 ///
 /// The angles follow from damped least squares from 41 starts, the same for every leg except for the signs of mirrored axes.
 /// The result is the one with the least cost,

@@ -17,11 +17,11 @@ namespace {
 
 constexpr double kSag = 0.01;  // rad
 
-/// Largest torque, as a share of its stiffness, at a joint of the legs if each foot carries an equal share of the weight, rad.
+/// Largest angle, rad, by which a joint of a leg yields if each foot carries an equal share of the weight.
 double sag(const Scenario& one, const RobotInfo& robot, const std::vector<cpg::LegKinematics>& legs,
            const std::vector<double>& q) {
   const double load = one.robot->mass * one.physics.gravity.norm() / static_cast<double>(legs.size());
-  const Vec3 up = cpg::vector_of(robot.up);
+  const Vec3 up = vector_of(robot.up);
   double most = 0;
   for (const report::PositionLoop& loop : report::position_loops(one)) {
     for (std::size_t l = 0; l < legs.size(); ++l) {
@@ -37,7 +37,7 @@ double sag(const Scenario& one, const RobotInfo& robot, const std::vector<cpg::L
   return most;
 }
 
-/// The section `controller`, whose gains differ from those of the module by `factor`.
+/// The section `controller`, with the module's gains times `factor`.
 std::string controller_text(const Scenario& one, double period, double factor, double sags) {
   const std::vector<report::PositionLoop> loops = report::position_loops(one);
   if (std::ranges::any_of(loops, [](const report::PositionLoop& loop) { return std::string(loop.key) != "Kp"; })) return "";
@@ -61,7 +61,7 @@ std::optional<LegValues> leg_values(const Scenario& one, double share) {
   for (const Leg& leg : robot.legs) legs.emplace_back(robot, leg);
   const std::vector<double> q = cpg::stance_of(robot, legs, 0);
   double height = 0;
-  for (const cpg::LegKinematics& leg : legs) height = std::max(height, cpg::vector_of(robot.up).dot(leg.hip(q) - leg.foot(q)));
+  for (const cpg::LegKinematics& leg : legs) height = std::max(height, vector_of(robot.up).dot(leg.hip(q) - leg.foot(q)));
   if (!(height > 0)) return {};
 
   LegValues values;
@@ -78,7 +78,7 @@ std::optional<LegValues> leg_values(const Scenario& one, double share) {
   constexpr double kPeriodsRun = 6;  // two to start, and four that are judged
   values.what = std::string("a ") + gait;
   values.cpg = fmt::format(
-      "  type: legs               # feet on given ways; others: gaitlab list cpg\n"
+      "  type: legs               # others: gaitlab list cpg\n"
       "  frequency: {:.2g}           # Hz\n"
       "  model:\n"
       "    gait: {}             # gaitlab explain cpg legs\n"

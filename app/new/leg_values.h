@@ -14,12 +14,13 @@ struct LegValues {
   std::string what;  ///< of the gait: `a trot`
 };
 
-/// A trot (tripod from six legs on, wave for an odd number) whose stride is `share` times 0.3 h, with lift 0.1 h and frequency
-/// 0.35 sqrt(g / h), h the height of the hips in the stance. Nothing if the robot has no legs, or none with motors.
+/// A trot (tripod from six legs on, wave for an odd number) with stride `share` times 0.3 h, lift 0.1 h and frequency 0.35
+/// sqrt(g / h), from six legs on 0.1 sqrt(g / h); h: height of the hips in the stance. Nothing for a robot without legs or
+/// motors.
 ///
-/// The controller has the longest of the periods 15, 10, 5, 2 and 1 ms at which no joint of a leg sags by more than 0.02 rad
-/// under an equal share of the robot's weight, with gains in inverse proportion to the period; else 1 ms. A gain then removes
-/// the same share of the error per period as that of the module.
+/// The controller has the longest of the periods 15, 10, 5, 2 and 1 ms that lets no joint of a leg sag by more than 0.01 rad
+/// under an equal share of the robot's weight, else 1 ms. Gains are those of the module times 15 ms / period, and remove the
+/// same share of the error per period.
 std::optional<LegValues> leg_values(const Scenario& one, double share);
 
 }  // namespace gaitlab::app

@@ -138,7 +138,6 @@ std::vector<Chain> walking(const Posed& posed) {
 }
 
 std::array<double, 3> array_of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
-Vec3 vector_of(const std::array<double, 3>& a) { return {a[0], a[1], a[2]}; }
 
 Leg leg_of(const Posed& posed, const Chain& chain) {
   const Robot& robot = posed.robot;
@@ -163,17 +162,16 @@ struct Place {
   double forward = 0, left = 0;
 };
 
-std::vector<Place> places(const Posed& posed, const std::vector<Leg>& legs, const Mat3& base) {
+std::vector<Place> places(const std::vector<Leg>& legs, const Mat3& base) {
   const Vec3 up = base.row(2);
-  Vec3 forward = Vec3::UnitX() - up * up.x();
-  if (forward.norm() < 0.5) forward = Vec3::UnitY() - up * up.y();  // the base's x is vertical
-  const Vec3 left = up.cross(forward.normalized());
+  const Vec3 forward = forwards(up);
+  const Vec3 left = up.cross(forward);
   const auto seen = [&](const auto& point) {
     std::vector<Place> all;
     Place mean;
     for (std::size_t i = 0; i < legs.size(); ++i) {
       const Vec3 at = point(i);
-      all.push_back({at.dot(forward.normalized()), at.dot(left)});
+      all.push_back({at.dot(forward), at.dot(left)});
       mean.forward += all.back().forward / static_cast<double>(legs.size());
       mean.left += all.back().left / static_cast<double>(legs.size());
     }
@@ -183,7 +181,7 @@ std::vector<Place> places(const Posed& posed, const std::vector<Leg>& legs, cons
   std::vector<Place> hips = seen([&](std::size_t i) { return vector_of(legs[i].hip); });
   const auto apart = [](const Place& one) { return one.forward * one.forward + one.left * one.left > kSole * kSole; };
   if (std::ranges::any_of(hips, apart)) return hips;
-  return seen([&](std::size_t i) { return posed.zero.p[0] + vector_of(legs[i].foot); });  // all hips are on one point
+  return seen([&](std::size_t i) { return vector_of(legs[i].foot); });  // all hips are on one point
 }
 
 std::string place_name(std::size_t rank, std::size_t count) {
@@ -218,12 +216,18 @@ void name_side(std::vector<Leg>& legs, const std::vector<Place>& at, int side, d
 
 }  // namespace
 
+Vec3 forwards(const Vec3& up) {
+  constexpr double kSteep = 0.5;  // sine of 30 degrees
+  const Vec3 level = Vec3::UnitX() - up * up.x();
+  return (level.norm() < kSteep ? Vec3(Vec3::UnitY() - up * up.y()) : level).normalized();
+}
+
 std::vector<Leg> legs_of(const Robot& robot, std::span<const double> q, const Mat3& base) {
   const Posed posed(robot, q, base);
   std::vector<Leg> legs;
   for (const Chain& chain : walking(posed)) legs.push_back(leg_of(posed, chain));
   if (legs.empty()) return legs;
-  const std::vector<Place> at = places(posed, legs, base);
+  const std::vector<Place> at = places(legs, base);
   double longest = 0, widest = 0;
   for (const Place& one : at) {
     longest = std::max(longest, std::abs(one.forward));
