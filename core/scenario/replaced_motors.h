@@ -14,7 +14,7 @@ namespace gaitlab {
 class ReplacedMotors {
  public:
   /// `root` is the tree of the scenario. `servo`: the scenario's actuator names a servo. Robot and actuator of `scenario` have
-  /// been read. `presets` are those of actuators.
+  /// been read. `presets` are of actuators.
   ReplacedMotors(const Node& root, const Scenario& scenario, const TypePresets& presets, bool servo);
 
   /// A note for each module type whose values are dropped, at the place of the actuator's type; none if the scenario gives

@@ -14,7 +14,7 @@ std::vector<Leg> legs_that_walk(const Scenario& scenario);
 /// Name of a leg for people: `front left`.
 std::string leg_name(const Leg& leg);
 
-/// Numbers of the modules all of whose joints are in this leg.
+/// Numbers of the modules with joints in this leg alone.
 std::vector<std::size_t> own_modules(const RobotInfo& robot, const Leg& leg);
 
 /// Names of feet, given by the indices of their bodies: the name of the leg, followed by the body's name if the leg has several

@@ -4,12 +4,14 @@
 
 #include "app/new/chain.h"
 #include "core/laws/data_sheet.h"
+#include "core/scenario/resolved.h"
 #include "core/scenario/sensor_section.h"
 #include "core/settings/shipped_files.h"
 #include "report/figures/paper/paper_panel.h"
 #include "report/figures/run/run_footfalls.h"
 #include "tests/folders.h"
 #include "tests/labels.h"
+#include "tests/messages.h"
 #include "tests/program/fixture.h"
 
 namespace gaitlab::test {
@@ -161,8 +163,9 @@ TEST_F(NewFiles, AQuadrupedWalks) {
   const report::Summary summary = report::summarise(scenario, record, 0);
   ASSERT_TRUE(summary.fall && *summary.fall);
   EXPECT_FALSE((*summary.fall)->time) << "it falls";
-  // Half of stride times frequency over the time after the ramp; it goes at 0.9 of it.
-  EXPECT_GT(Table(record.trace)(4, "base.x") - Table(record.trace)(1, "base.x"), 0.5 * 0.05 * 1.9 * 3);
+  // Half of stride times frequency over the time after the ramp, as asked of imported robots; it goes at 0.95 of it.
+  EXPECT_TRUE(contains(text, "frequency: 1.9 ") && contains(text, "stride: 0.1 ")) << text;
+  EXPECT_GT(Table(record.trace)(4, "base.x") - Table(record.trace)(1, "base.x"), 0.5 * 0.1 * 1.9 * 3);
   EXPECT_LT(std::abs(Table(record.trace)(4, "base.y") - Table(record.trace)(1, "base.y")), 0.05);
   // The footfalls of a robot of one module are those of its legs, from the loads of its bodies. A trot stands for half of the
   // time.
@@ -171,6 +174,19 @@ TEST_F(NewFiles, AQuadrupedWalks) {
   ASSERT_EQ(falls.size(), 4U);
   for (const report::Footfall& leg : falls) EXPECT_NEAR(leg.duty_factor, 0.5, 0.15) << leg.name;
   EXPECT_EQ(falls[1].name, "front right");
+  // The start follows from the gait again where the resolved text is read, and where settings change.
+  const std::string again = resolved(scenario);
+  EXPECT_FALSE(contains(again, "  angles:")) << again;
+  const Scenario same = read_scenario(folder.write("again.yaml", again), {}, catalog());
+  EXPECT_EQ(same.initial.angles, scenario.initial.angles);
+  EXPECT_EQ(plugin_info(same).legs[0].foot, robot.legs[0].foot);
+  const Scenario lower = read_scenario(folder / "again.yaml", {"cpg.model.stance=0.6"}, catalog());
+  EXPECT_LT(lower.initial.angles[robot.legs[0].joints.back()], scenario.initial.angles[robot.legs[0].joints.back()] - 0.1)
+      << "the knee bends more";
+  EXPECT_TRUE(contains(message_of([&] {
+                         read_scenario(folder / "again.yaml", {"cpg.model.stance=0.6", "initial.angles=0"}, catalog());
+                       }),
+                       "stance and initial.angles are both given"));
 }
 
 /// Without --from, --lock has no joints; a pattern that matches none, and what is refused, leave no file.

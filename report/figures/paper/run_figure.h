@@ -22,7 +22,7 @@ std::string run_figure(const Scenario& scenario, const Recording& record, const 
 /// legs. Candidates are the spine joints that turn about y within 25 degrees at zero angles and therefore bend the spine up and
 /// down, or all spine joints if there are none. The result is the candidate nearest, along x, to the middle between the
 /// foremost and the rearmost spine joint; among equally near ones (to a millimetre) the foremost. The most loaded spine joint
-/// would be unsuitable: in the hexapod it is the foremost one, where the front legs are docked. Nothing if all joints are in
+/// would be unsuitable: in the hexapod it is the foremost one, beside the front legs. Nothing if all joints are in
 /// legs.
 std::optional<std::size_t> central_spine_joint(const RobotInfo& robot, const std::vector<Leg>& legs);
 

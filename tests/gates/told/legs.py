@@ -105,7 +105,7 @@ class Legs:
                 elif rank in (0, len(own) - 1):
                     name = "rear" if rank else "front"
                 else:
-                    name = "middle" if len(own) == 3 else f"{rank + 1}" + {1: "nd", 2: "rd"}.get(rank, "th")
+                    name = "middle" if len(own) == 3 else f"{rank + 1}" + ("th" if 9 < rank < 13 else {1: "st", 2: "nd", 3: "rd"}.get((rank + 1) % 10, "th"))
                 self.of |= {body: name + word for body, link in self.link.items() if link in chains[k]}
 
     def sole(self, link):
