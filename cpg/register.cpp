@@ -8,6 +8,7 @@
 #include "cpg/matsuoka.h"
 #include "cpg/phase_oscillator.h"
 #include "cpg/sine.h"
+#include "cpg/snake.h"
 #include "cpg/table.h"
 #include "cpg/tripod.h"
 #include "cpg/van_der_pol.h"
@@ -23,6 +24,7 @@ void register_cpgs(Registry& registry) {
   add_cpg<Matsuoka>(registry, "matsuoka", Matsuoka::kManual);
   add_cpg<PhaseOscillator>(registry, "phase_oscillator", PhaseOscillator::kManual);
   add_cpg<Sine>(registry, "sine", Sine::kManual);
+  add_cpg<Snake>(registry, "snake", Snake::kManual);
   add_cpg<Table>(registry, "table", Table::kManual);
   add_cpg<Tripod>(registry, "tripod", Tripod::kManual);
   add_cpg<VanDerPol>(registry, "van_der_pol", VanDerPol::kManual);
