@@ -3,9 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <span>
 #include <utility>
 
+#include "core/model/frames.h"
+#include "core/model/legs.h"
 #include "core/settings/value.h"
 #include "core/settings/wording.h"
 #include "core/settings/writer.h"
@@ -75,9 +76,22 @@ JointGroups read_groups(const Node& node, const std::vector<std::string>& joints
   return groups;
 }
 
+JointGroups leg_groups(const Robot& robot, std::span<const double> angles, const Vec3& orientation) {
+  JointGroups groups;
+  for (const Leg& leg : legs_of(robot, angles, rpy(orientation))) {
+    JointGroup whole{kLegGroup + leg.name, {}};
+    for (const std::int64_t joint : leg.joints) whole.joints.push_back(robot.joints[static_cast<std::size_t>(joint)].name);
+    groups.push_back(whole);
+    for (std::size_t k = 0; k < whole.joints.size(); ++k)
+      groups.push_back({fmt::format("{}/{}", whole.name, k), {whole.joints[k]}});
+  }
+  return groups;
+}
+
 Node groups_node(const JointGroups& groups) {
   Node all{Node::Kind::map};
   for (const JointGroup& group : groups) {
+    if (group.name.starts_with(kLegGroup)) continue;
     Node list{Node::Kind::list};
     list.flow = true;
     for (const std::string& joint : group.joints) list.items.push_back(text_node(joint));

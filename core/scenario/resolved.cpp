@@ -57,7 +57,7 @@ std::string resolved(const Scenario& scenario, FilePaths paths) {
   writer.add("name", text_node(scenario.name));
   writer.add("plugins", plugins_node(scenario.plugins, paths));
   writer.add("robot", robot_node(copy, joints));
-  if (!scenario.groups.empty()) writer.add(kGroupsSection, groups_node(scenario.groups));
+  if (Node groups = groups_node(scenario.groups); !groups.keys.empty()) writer.add(kGroupsSection, std::move(groups));
   const Entry* actuator = scenario.actuator.entry;
   SectionFields sections(copy, nullptr, nullptr, actuator == nullptr ? "none" : std::string(actuator->name));
   sections.writing = true;

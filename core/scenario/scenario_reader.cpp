@@ -159,6 +159,20 @@ void ScenarioReader::read_body() {
   joints_ = std::make_shared<const std::vector<std::string>>(joint_names(*scenario_.robot));
   modules_ = std::make_shared<const std::vector<std::string>>(module_names(*scenario_.robot));
   if (const Node* groups = root_.find(kGroupsSection)) scenario_.groups = read_groups(*groups, *joints_, *modules_, problems_);
+  add_leg_groups();
+}
+
+void ScenarioReader::add_leg_groups() {
+  Initial start;
+  if (const Node* node = root_.find("initial"); node != nullptr && node->kind == Node::Kind::map) {
+    Problems reported_later;
+    Reader reader(*node, "initial", reported_later, joints_.get());
+    reader.groups(scenario_.groups);
+    start.fields(reader);
+  }
+  std::vector<double> angles;
+  for (std::size_t j = 0; j < joints_->size(); ++j) angles.push_back(start.angles[j]);
+  std::ranges::move(leg_groups(*scenario_.robot, angles, scenario_.orientation), std::back_inserter(scenario_.groups));
 }
 
 void ScenarioReader::prepare(Reader& reader) const {

@@ -41,6 +41,8 @@ class ScenarioReader {
   void tell_dropped_keys(const std::vector<std::string>& sets);
   void read_name(Reader& reader);
   void read_body();
+  /// Adds the legs of the robot, in the pose of the start, to the groups.
+  void add_leg_groups();
   [[nodiscard]] bool reads(const std::string& section) const { return touched_.has(section); }
   void prepare(Reader& reader) const;
   void read_sections();

@@ -58,12 +58,17 @@ bool means_several(const std::string& text, const JointGroups& groups) {
 }
 
 std::vector<std::size_t> joints_of(const std::string& text, const std::vector<std::string>& joints, const JointGroups& groups) {
-  const JointGroup* group = group_named(text, groups);
+  std::vector<const JointGroup*> named;
+  const bool of_legs = text.starts_with(kLegGroup);
+  for (const JointGroup& group : groups) {
+    if (group.name == text || (of_legs && glob(text, group.name))) named.push_back(&group);
+  }
   std::vector<std::size_t> numbers;
   for (std::size_t j = 0; j < joints.size(); ++j) {
-    const bool meant =
-        group == nullptr ? glob(text, joints[j]) : std::ranges::find(group->joints, joints[j]) != group->joints.end();
-    if (meant) numbers.push_back(j);
+    const auto has = [&](const JointGroup* group) {
+      return std::ranges::find(group->joints, joints[j]) != group->joints.end();
+    };
+    if (named.empty() ? glob(text, joints[j]) : std::ranges::any_of(named, has)) numbers.push_back(j);
   }
   return numbers;
 }

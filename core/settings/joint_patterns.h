@@ -14,13 +14,17 @@ struct JointGroup {
 };
 using JointGroups = std::vector<JointGroup>;
 
+/// Beginning of the names of groups that follow from the legs of the robot, which may be meant by a pattern: `leg:front_left`,
+/// its joints; `leg:*_left`; `leg:*/2`, the third joint of each leg from the trunk.
+inline constexpr const char* kLegGroup = "leg:";
+
 /// The group with this name, or nullptr.
 const JointGroup* group_named(const std::string& name, const JointGroups& groups);
 /// True for a pattern or the name of a group.
 bool means_several(const std::string& text, const JointGroups& groups);
 
-/// Ascending numbers of the joints that match a name (`m3/active`), a pattern (`*/active`, `m3/*`, `m[3-6]/active`) or a group.
-/// If the result is empty, no_joint() gives the message.
+/// Ascending numbers of the joints that match a name (`m3/active`), a pattern (`*/active`, `m3/*`, `m[3-6]/active`) or a group,
+/// or that are in a group of legs whose name matches a pattern. If the result is empty, no_joint() gives the message.
 std::vector<std::size_t> joints_of(const std::string& text, const std::vector<std::string>& joints,
                                    const JointGroups& groups = {});
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/model/legs.h"
 #include "core/model/pattern.h"
 #include "core/plugin/plugin_instance.h"
 #include "core/plugin/robot_info.h"
@@ -63,6 +64,7 @@ void Probes::add_all(const Scenario& scenario, const std::vector<ContactElement>
   add_vector("com", "m", "centre of mass, world axes", [](const Sample& s) { return s.sums.com; });
   add_contacts(contacts);
   add_loads(robot, contacts);
+  add_legs(robot, plugin_info(scenario).legs, contacts);
   add_bodies(robot, sample_);
   add_boxes(scenario.ground);
   for (std::size_t i = 0; cpg != nullptr && i < cpg->states(); ++i) {
@@ -201,6 +203,27 @@ void Probes::add_loads(const Robot& robot, const std::vector<ContactElement>& co
   }
 }
 
+void Probes::add_legs(const Robot& robot, const std::vector<Leg>& legs, const std::vector<ContactElement>& contacts) {
+  const Kinematics zero = at_zero(robot);
+  for (const Leg& leg : legs) {
+    std::vector<std::size_t> elements;
+    for (std::size_t c = 0; c < contacts.size(); ++c) {
+      if (std::ranges::find(leg.bodies, static_cast<std::int64_t>(contacts[c].body)) != leg.bodies.end()) elements.push_back(c);
+    }
+    const std::string name = "leg." + leg.name + ".";
+    add(name + "load", "N", "normal force on all contact elements of the leg", [elements](const Sample& s) {
+      double sum = 0;
+      for (const std::size_t c : elements) sum += s.contacts[c].fn;
+      return sum;
+    });
+    const std::size_t link = robot.bodies[static_cast<std::size_t>(leg.bodies.back())].link;
+    const Vec3 in_link = zero.R[link].transpose() * (vector_of(leg.foot) - zero.p[link]);
+    add_vector(name, "m", "foot of the leg, base frame", [link, in_link](const Sample& s) {
+      return Vec3(s.state.orientation.conjugate() * (s.kinematics.point(link, in_link) - s.state.position));
+    });
+  }
+}
+
 void Probes::add_bodies(const Robot& robot, const Sample& first) {
   for (const Body& body : robot.bodies) {
     const std::size_t link = body.link;
@@ -310,7 +333,7 @@ std::vector<bool> matched(const Scenario& scenario, const std::vector<Column>& c
     problems.add(
         scenario.place("trace.columns"),
         fmt::format("{} matches no column{}", in_quotes(pattern),
-                    near.empty() ? "; groups are t, joint, base, com, contact, load, body, box, "
+                    near.empty() ? "; groups are t, joint, base, com, contact, load, leg, body, box, "
                                    "cpg, energy, momentum, angular_momentum, steps, torque_error, reaction, sensor, segment"
                                  : "; did you mean '" + near + "'?"));
   }
@@ -342,7 +365,8 @@ void Probes::select(const Scenario& scenario) {
     return std::ranges::any_of(columns_, [&](const Column& c) { return c.name.starts_with(prefix); });
   };
   want_reactions_ = want(kReaction);
-  want_places_ = want_reactions_ || want("body.") || want("energy.") || want("momentum.") || want("angular_momentum.");
+  want_places_ =
+      want_reactions_ || want("body.") || want("leg.") || want("energy.") || want("momentum.") || want("angular_momentum.");
   sources_.resize(kept);
   if (!want_reactions_ || scenario.contact.model().element_forces) return;
   throw InputError(scenario.place("trace.columns"),

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/plugin/robot_info.h"
 #include "core/plugin/sensor.h"
 #include "core/recording/recording.h"
 #include "core/scenario/scenario.h"
@@ -44,6 +45,7 @@ class Probes {
   void add_base();
   void add_contacts(const std::vector<ContactElement>& contacts);
   void add_loads(const Robot& robot, const std::vector<ContactElement>& contacts);
+  void add_legs(const Robot& robot, const std::vector<Leg>& legs, const std::vector<ContactElement>& contacts);
   void add_bodies(const Robot& robot, const Sample& first);
   void add_boxes(const Ground& ground);
   void add_energy(const Robot& robot, bool friction);
