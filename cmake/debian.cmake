@@ -88,5 +88,5 @@ pattern generators written in Python.")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-pandas")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA "${CMAKE_SOURCE_DIR}/cmake/debian/postinst;${CMAKE_SOURCE_DIR}/cmake/debian/prerm")
 endif()
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "gaitlab-dev, python3-gaitlab")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "gaitlab-dev, python3-gaitlab, libmujoco2.2.2") # reads MJCF
 include(CPack)

@@ -11,6 +11,7 @@
 #include "core/settings/wording.h"
 #include "interchange/urdf_joined.h"
 #include "interchange/urdf_mass.h"
+#include "interchange/urdf_motor.h"
 #include "interchange/urdf_shapes.h"
 
 namespace gaitlab::interchange {
@@ -30,32 +31,12 @@ const char* type_name(int type) {
   }
 }
 
-/// Names for the module file from the names in URDF, in the same order. Prefixes such as `m0/` are removed if all names then
-/// still differ, characters that are not allowed become _, and equal names are numbered.
-std::vector<std::string> allowed_names(const std::vector<std::string>& names) {
-  std::set<std::string> seen;
-  for (const std::string& name : names) seen.insert(name.substr(name.rfind('/') + 1));
-  const bool unique = seen.size() == names.size();
-  seen = {"dock"};  // name reserved for docks
-  std::vector<std::string> allowed;
-  for (const std::string& name : names) {
-    std::string text = unique ? name.substr(name.rfind('/') + 1) : name;
-    std::erase_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; });  // one _ for each UTF-8 letter
-    for (char& c : text) c = is_name(std::string(1, c), "_-") ? c : '_';
-    text = text.empty() ? "part" : text.substr(0, 90);
-    std::string one = text;
-    for (int n = 2; !seen.insert(one).second; ++n) one = fmt::format("{}_{}", text, n);
-    allowed.push_back(one);
-  }
-  return allowed;
-}
-
 class BodyWalk {
  public:
-  BodyWalk(const UrdfText& urdf, const UrdfOptions& options, Problems& problems)
+  BodyWalk(const UrdfText& urdf, const ImportOptions& options, Problems& problems)
       : urdf_(urdf), locked_(options.locked), problems_(problems), shapes_(urdf, options.meshes) {}
 
-  UrdfBodies read() {
+  RobotBodies read() {
     made_.notes = urdf_.repairs();
     joined_ = joined_joints(urdf_, locked_, made_.notes, problems_);
     const urdf::Link* const root = first_link();
@@ -93,8 +74,9 @@ class BodyWalk {
                            in_quotes(joint.name)));
       return urdf_.model().getLink(joint.child_link_name).get();
     }
-    made_.fixed_base = root->name == "world" ? std::ranges::any_of(root->child_joints, is_joined)
+    const bool fixed = root->name == "world" ? std::ranges::any_of(root->child_joints, is_joined)
                                              : std::ranges::all_of(root->child_joints, is_locked);
+    if (fixed) made_.base = Base::fixed;
     return root;
   }
 
@@ -146,7 +128,7 @@ class BodyWalk {
   }
 
   void add_hinge(const urdf::Joint& joint, std::size_t parent, std::size_t child, const Pose& pose) {
-    UrdfHinge made;
+    RobotHinge made;
     made.hinge = {joint.name, parent, child, pose, vec(joint.axis)};
     const bool free = joint.type == urdf::Joint::CONTINUOUS;
     if (!free && joint.type != urdf::Joint::REVOLUTE) {
@@ -165,6 +147,7 @@ class BodyWalk {
     made.hinge.hi = turns ? kNoStop : joint.limits->upper;
     read_motor(joint, urdf_, made, problems_);
     made_.hinges.push_back(made);
+    made_.hinge_of.push_back({joint.name, urdf_.place("joint", joint.name)});
     inner_.insert(parent);
     moved_.insert(child);
   }
@@ -254,14 +237,13 @@ class BodyWalk {
     return shapes;
   }
 
-  /// Sums the masses, reports bodies without mass, and makes names that a module file allows.
+  /// Sums the masses, and reports bodies without mass.
   void finish() {
     refuse_joints();
-    std::vector<std::string> names, joints;
     for (std::size_t b = 0; b < made_.bodies.size(); ++b) {
       BodyType& body = made_.bodies[b];
       repair_inertias(masses_[b], urdf_, made_.notes);
-      const UrdfMass whole = united_mass(masses_[b]);
+      const RobotMass whole = united_mass(masses_[b]);
       body.mass = whole.mass;
       body.com = whole.com;
       body.inertia = whole.inertia;
@@ -274,32 +256,23 @@ class BodyWalk {
                       fmt::format("link {} has no mass; expected inertial (only a link between two hinges may have none)",
                                   in_quotes(body.name)));
       }
-      names.push_back(body.name);
+      made_.body_of.push_back({body.name, urdf_.place("link", body.name)});
     }
-    if (made_.fixed_base) note_base();
-    choose_motors(made_.bodies, urdf_, made_.hinges, made_.notes, problems_);
-    shapes_.add_note(made_.notes);
+    if (made_.base == Base::fixed) note_base();
+    choose_motors(made_, urdf_, problems_);
+    shapes_.made_hulls().add_note("link", made_.notes);
     if (!hidden_.empty()) {
       const std::string first = in_quotes(hidden_.front()->name);
       left_out(urdf_.place("link", hidden_.front()->name),
                fmt::format("the visual shapes of {}; those of collision are drawn and touch",
                            hidden_.size() == 1 ? "link " + first : fmt::format("{} links, first {}", hidden_.size(), first)));
     }
-    for (const UrdfHinge& one : made_.hinges) joints.push_back(one.hinge.name);
-    made_.links = std::move(names);
-    made_.joints = std::move(joints);
-    const std::vector<std::string> bodies = allowed_names(made_.links);
-    const std::vector<std::string> hinges = allowed_names(made_.joints);
-    for (std::size_t b = 0; b < bodies.size(); ++b) made_.bodies[b].name = bodies[b];
-    for (std::size_t j = 0; j < hinges.size(); ++j) made_.hinges[j].hinge.name = hinges[j];
-    note_names("link", made_.links, bodies);
-    note_names("joint", made_.joints, hinges);
   }
 
   /// Gives the root, which has no mass and of which a hinge moves the rest, a mass; it does not matter, because nothing moves
   /// the root.
   void fix_base(BodyType& root) {
-    made_.fixed_base = true;
+    made_.base = Base::fixed;
     root.mass = 1;
     root.inertia = usual_inertia(root.mass, root.shapes);
     chosen_mass_ = true;
@@ -313,38 +286,29 @@ class BodyWalk {
                         in_quotes(root), chosen_mass_ ? ", and has a mass of 1 kg instead of none" : ""));
   }
 
-  /// Adds a note on each name that was changed, other than by removing a prefix.
-  void note_names(const char* what, const std::vector<std::string>& given, const std::vector<std::string>& allowed) {
-    for (std::size_t i = 0; i < given.size(); ++i) {
-      if (given[i] == allowed[i] || given[i].ends_with("/" + allowed[i])) continue;
-      left_out(urdf_.place(what, given[i]),
-               fmt::format("the name of {} {}, which is {} here", what, in_quotes(given[i]), allowed[i]));
-    }
-  }
-
   const UrdfText& urdf_;
   const std::vector<std::string>& locked_;
   Problems& problems_;
   UrdfShapes shapes_;
-  UrdfBodies made_;
-  std::vector<std::vector<UrdfMass>> masses_;  ///< of the links of each body
-  std::vector<Placed> open_;                   ///< links to read
-  std::set<const urdf::Joint*> joined_;        ///< joints whose links are one body
-  std::vector<const urdf::Joint*> refused_;    ///< joints that cannot be hinges and are not joined
-  std::set<std::size_t> inner_, moved_;        ///< bodies that are the parent of a joint that moves; those that one moves
-  bool chosen_mass_ = false;                   ///< true if the mass of a fixed base is chosen
-  std::vector<const urdf::Link*> hidden_;      ///< links whose visual differs from their collision
+  RobotBodies made_{{"URDF", "link", "torque and speed are the effort and velocity in "}};
+  std::vector<std::vector<RobotMass>> masses_;  ///< of the links of each body
+  std::vector<Placed> open_;                    ///< links to read
+  std::set<const urdf::Joint*> joined_;         ///< joints whose links are one body
+  std::vector<const urdf::Joint*> refused_;     ///< joints that cannot be hinges and are not joined
+  std::set<std::size_t> inner_, moved_;         ///< bodies that are the parent of a joint that moves; those that one moves
+  bool chosen_mass_ = false;                    ///< true if the mass of a fixed base is chosen
+  std::vector<const urdf::Link*> hidden_;       ///< links whose visual differs from their collision
 };
 
 }  // namespace
 
-UrdfBodies urdf_bodies(const UrdfText& urdf, const UrdfOptions& options, Problems& problems) {
-  UrdfBodies made = BodyWalk(urdf, options, problems).read();
+RobotBodies urdf_bodies(const UrdfText& urdf, const ImportOptions& options, Problems& problems) {
+  RobotBodies made = BodyWalk(urdf, options, problems).read();
   for (const char* tag : {"transmission", "gazebo", "sensor", "safety_controller", "calibration", "contact"}) {
     if (const std::size_t number = urdf.count(tag); number > 0)
       made.notes.push_back({urdf.place(), fmt::format("{} of <{}>", counted(number, "element"), tag)});
   }
-  std::ranges::stable_sort(made.notes, {}, [](const UrdfNote& one) { return std::pair(one.place.line, one.place.column); });
+  made.finish();
   return made;
 }
 

@@ -5,9 +5,8 @@
 #include <algorithm>
 #include <map>
 
-#include "core/model/pattern.h"
-#include "core/settings/joint_patterns.h"
 #include "core/settings/wording.h"
+#include "interchange/robot_bodies.h"
 #include "interchange/urdf_mass.h"
 
 namespace gaitlab::interchange {
@@ -28,37 +27,23 @@ struct JoinedGroup {
   bool mass = false, moves = false;  ///< true if it has mass; true if it is the parent of a joint that moves
 };
 
-/// Names of the joints that move which `locked` fixes: the joint of that name, which may contain `*`, else those that match it
-/// as a pattern. Adds a problem for each that matches none.
-std::set<std::string> locked_joints(const std::vector<const urdf::Link*>& links, const std::vector<std::string>& locked,
-                                    Problems& problems) {
+std::vector<std::string> moving_joints(const std::vector<const urdf::Link*>& links) {
   std::vector<std::string> moving;
   for (const urdf::Link* const link : links) {
     const urdf::Joint* const joint = link->parent_joint.get();
     if (joint != nullptr && joint->type != urdf::Joint::FIXED) moving.push_back(joint->name);
   }
-  std::set<std::string> names;
-  for (const std::string& one : locked) {
-    const bool verbatim = std::ranges::find(moving, one) != moving.end();
-    bool found = false;
-    for (const std::string& name : moving) {
-      if (verbatim ? name != one : !glob(one, name)) continue;
-      names.insert(name);
-      found = true;
-    }
-    if (!found) problems.add(SourceLocation{"--lock"}, no_joint(one, moving));
-  }
-  return names;
+  return moving;
 }
 
 }  // namespace
 
 std::set<const urdf::Joint*> joined_joints(const UrdfText& urdf, const std::vector<std::string>& locked,
-                                           std::vector<UrdfNote>& notes, Problems& problems) {
+                                           std::vector<RobotNote>& notes, Problems& problems) {
   std::set<const urdf::Joint*> joined;
   std::map<const urdf::Link*, JoinedGroup> groups;
   const std::vector<const urdf::Link*> links = links_outwards(urdf.model());
-  const std::set<std::string> fixed_by_option = locked_joints(links, locked, problems);
+  const std::set<std::string> fixed_by_option = locked_joints(moving_joints(links), locked, problems);
   for (auto next = links.rbegin(); next != links.rend(); ++next) {
     const urdf::Link* const link = *next;
     JoinedGroup& own = groups[link];

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "interchange/urdf_note.h"
+#include "interchange/robot_note.h"
 #include "interchange/urdf_text.h"
 
 namespace gaitlab::interchange {
@@ -13,6 +13,6 @@ namespace gaitlab::interchange {
 /// `locked`, and those that move only links without mass, such as the frame at the tip of an arm. Adds a note for each
 /// that moves in the file, and a problem for each of `locked` that matches none.
 std::set<const urdf::Joint*> joined_joints(const UrdfText& urdf, const std::vector<std::string>& locked,
-                                           std::vector<UrdfNote>& notes, Problems& problems);
+                                           std::vector<RobotNote>& notes, Problems& problems);
 
 }  // namespace gaitlab::interchange

@@ -43,7 +43,7 @@ bool usable(const std::vector<Shape>& shapes) {
 bool far(const urdf::Vector3& p) { return !(std::hypot(p.x, p.y, p.z) <= kFarthest); }
 
 /// Repairs the inertia of one link, with a note.
-void repair_inertia(UrdfMass& part, const UrdfText& urdf, std::vector<UrdfNote>& notes) {
+void repair_inertia(RobotMass& part, const UrdfText& urdf, std::vector<RobotNote>& notes) {
   if (!(part.mass > 0) || !part.inertia.allFinite()) return;
   const Principal before = principal(part.inertia);
   if (before.possible()) return;
@@ -95,31 +95,16 @@ void check_numbers(const urdf::Link& link, const std::vector<Shape>& shapes, con
   }
 }
 
-UrdfMass united_mass(const std::vector<UrdfMass>& parts) {
-  if (parts.size() == 1) return parts.front();
-  UrdfMass whole;
-  for (const UrdfMass& part : parts) {
-    whole.mass += part.mass;
-    whole.com += part.mass * part.com;
-  }
-  if (whole.mass > 0) whole.com /= whole.mass;
-  for (const UrdfMass& part : parts) {
-    const Vec3 d = part.com - whole.com;
-    whole.inertia += part.inertia + part.mass * (d.squaredNorm() * Mat3::Identity() - d * d.transpose());
-  }
-  return whole;
-}
-
 Mat3 usual_inertia(double mass, const std::vector<Shape>& shapes) {
   if (usable(shapes)) return united(shapes).inertia(mass);
   const double radius = std::cbrt(3 * mass / (4 * std::numbers::pi * kWater));
   return 0.4 * mass * radius * radius * Mat3::Identity();
 }
 
-void repair_inertias(std::vector<UrdfMass>& parts, const UrdfText& urdf, std::vector<UrdfNote>& notes) {
-  const UrdfMass whole = united_mass(parts);
+void repair_inertias(std::vector<RobotMass>& parts, const UrdfText& urdf, std::vector<RobotNote>& notes) {
+  const RobotMass whole = united_mass(parts);
   if (!(whole.mass > 0) || !whole.inertia.allFinite() || principal(whole.inertia).possible()) return;
-  for (UrdfMass& part : parts) repair_inertia(part, urdf, notes);
+  for (RobotMass& part : parts) repair_inertia(part, urdf, notes);
 }
 
 }  // namespace gaitlab::interchange

@@ -5,9 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "core/model/hull_shape.h"
 #include "core/settings/wording.h"
-#include "interchange/robot_xml.h"
 #include "interchange/urdf.h"
 
 namespace gaitlab::interchange {
@@ -77,7 +75,7 @@ const MeshHull& UrdfShapes::hull_of(const std::string& file, const Vec3& scale) 
 }
 
 void UrdfShapes::add_mesh(const std::string& link, const Pose& pose, const urdf::Mesh& mesh, std::vector<Shape>& shapes,
-                          std::vector<UrdfNote>& notes, Problems& problems) {
+                          std::vector<RobotNote>& notes, Problems& problems) {
   const SourceLocation place = urdf_.place("link", link);
   const std::string what = fmt::format("link {} has the mesh {}", in_quotes(link), in_quotes(mesh.filename));
   const std::optional<std::string> file = file_of(mesh.filename);
@@ -88,17 +86,7 @@ void UrdfShapes::add_mesh(const std::string& link, const Pose& pose, const urdf:
     return;
   }
   try {
-    const MeshHull& hull = hull_of(*file, vec(mesh.scale));
-    std::optional<Shape> shape = hull_shape(pose, hull.points);
-    if (!shape) {
-      notes.push_back({place, what + ", all points of which are in one plane; it has no shape", true});
-      return;
-    }
-    shapes.push_back(std::move(*shape));
-    ++count_;
-    if (hull.gap <= gap_ && !widest_.empty()) return;
-    gap_ = hull.gap;
-    widest_ = link;
+    made_.add({link, place}, what, pose, hull_of(*file, vec(mesh.scale)), shapes, notes);
   } catch (const InputError& error) {
     for (const Problem& one : error.problems())
       problems.add(place, fmt::format("{}: {}: {}", what, to_string(one.place), one.text));
@@ -106,7 +94,7 @@ void UrdfShapes::add_mesh(const std::string& link, const Pose& pose, const urdf:
 }
 
 void UrdfShapes::add(const std::string& link, const Pose& pose, const UrdfPart& part, std::vector<Shape>& shapes,
-                     std::vector<UrdfNote>& notes, Problems& problems) {
+                     std::vector<RobotNote>& notes, Problems& problems) {
   Shape shape{.in_body = pose};
   if (part.of->type == urdf::Geometry::BOX) {
     shape.size = vec(static_cast<const urdf::Box&>(*part.of).dim);
@@ -115,28 +103,11 @@ void UrdfShapes::add(const std::string& link, const Pose& pose, const UrdfPart& 
     shape.size.x() = static_cast<const urdf::Sphere&>(*part.of).radius;
   } else if (part.of->type == urdf::Geometry::CYLINDER) {
     const auto& cylinder = static_cast<const urdf::Cylinder&>(*part.of);
-    shape.kind = Shape::Kind::cylinder;
-    shape.in_body.R = pose.R * y_from_z().transpose();
-    shape.size = {cylinder.radius, cylinder.length, 0};
-    for (const double side : {-0.5, 0.5}) {
-      if (part.capsule)
-        shapes.push_back({Shape::Kind::sphere, {pose.R, pose * Vec3(0, 0, side * cylinder.length)}, {cylinder.radius, 0, 0}});
-    }
+    return add_cylinder_along_z(pose, cylinder.radius, cylinder.length, part.capsule, shapes);
   } else {
     return add_mesh(link, pose, static_cast<const urdf::Mesh&>(*part.of), shapes, notes, problems);
   }
   shapes.push_back(shape);
-}
-
-void UrdfShapes::add_note(std::vector<UrdfNote>& notes) const {
-  if (count_ == 0) return;
-  notes.push_back(
-      {urdf_.place("link", widest_),
-       fmt::format("{} the convex hull of at most {} of its points; the widest gap is {:.2g} % of its longest edge, "
-                   "in link {}",
-                   count_ == 1 ? "1 mesh is" : fmt::format("each of {} meshes is", count_), kFewPoints, 100 * gap_,
-                   in_quotes(widest_)),
-       true});
 }
 
 }  // namespace gaitlab::interchange

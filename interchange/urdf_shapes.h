@@ -9,7 +9,8 @@
 
 #include "core/model/module_type.h"
 #include "interchange/mesh_points.h"
-#include "interchange/urdf_note.h"
+#include "interchange/robot_note.h"
+#include "interchange/robot_shapes.h"
 #include "interchange/urdf_text.h"
 
 namespace gaitlab::interchange {
@@ -39,23 +40,20 @@ class UrdfShapes {
   /// Adds the shapes of a part of a link, at a pose in their body. Adds a problem for a mesh that cannot be read, and a note
   /// on a flat one, which is left out.
   void add(const std::string& link, const Pose& pose, const UrdfPart& part, std::vector<Shape>& shapes,
-           std::vector<UrdfNote>& notes, Problems& problems);
-  /// Adds a note on the meshes that became hulls.
-  void add_note(std::vector<UrdfNote>& notes) const;
+           std::vector<RobotNote>& notes, Problems& problems);
+  [[nodiscard]] const RobotHulls& made_hulls() const { return made_; }
 
  private:
   /// Path of a mesh file; nothing if there is none.
   [[nodiscard]] std::optional<std::string> file_of(const std::string& name) const;
   [[nodiscard]] const MeshHull& hull_of(const std::string& file, const Vec3& scale);
   void add_mesh(const std::string& link, const Pose& pose, const urdf::Mesh& mesh, std::vector<Shape>& shapes,
-                std::vector<UrdfNote>& notes, Problems& problems);
+                std::vector<RobotNote>& notes, Problems& problems);
 
   const UrdfText& urdf_;
   std::string meshes_;
   std::map<std::string, MeshHull> hulls_ = {};  ///< by file and scale
-  std::size_t count_ = 0;                       ///< meshes that became hulls
-  double gap_ = 0;                              ///< largest gap of a hull
-  std::string widest_ = {};                     ///< link of that hull
+  RobotHulls made_{"mesh", "meshes"};
 };
 
 }  // namespace gaitlab::interchange

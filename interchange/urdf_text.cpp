@@ -15,6 +15,7 @@
 #include "core/settings/text_file.h"
 #include "core/settings/wording.h"
 #include "interchange/xml_tags.h"
+#include "interchange/xml_text.h"
 
 namespace gaitlab::interchange {
 
@@ -36,56 +37,6 @@ class UrdfMessages final : public console_bridge::OutputHandler {
   std::vector<std::string>& messages_;
 };
 
-/// Checks the number of elements, because the XML parser of urdfdom calls itself for nested ones: 50 000 overflow its stack.
-void check_elements(const std::string& text, const std::string& file) {
-  constexpr std::size_t kMost = 10000;
-  std::size_t number = 0;
-  for (std::size_t i = 0; i + 1 < text.size(); ++i) number += text[i] == '<' && text[i + 1] != '/' ? 1 : 0;
-  if (number > kMost)
-    throw InputError(SourceLocation{file}, fmt::format("has {} elements; expected at most {}", number, kMost));
-}
-
-/// Offset after the first `end` at or after `at`; the end of the text if there is none.
-std::size_t behind(const std::string& text, std::string_view end, std::size_t at) {
-  const std::size_t found = text.find(end, at);
-  return found == std::string::npos ? text.size() : found + end.size();
-}
-
-/// Offset of the first element with too many attributes, or npos. The XML parser of urdfdom compares each attribute of an
-/// element with all before it: 60 000 take 12 s. Every attribute has an equals sign outside quotes.
-std::size_t crowded_element(const std::string& text, std::size_t most) {
-  for (std::size_t at = text.find('<'); at < text.size(); at = text.find('<', at)) {
-    const std::string_view from = std::string_view(text).substr(at);
-    if (from.starts_with("<!") || from.starts_with("<?")) {
-      at = behind(text, from.starts_with("<!--") ? "-->" : from.starts_with("<![CDATA[") ? "]]>" : ">", at);
-      continue;
-    }
-    const std::size_t start = at;
-    std::size_t number = 0;
-    for (char quote = 0; at < text.size() && (quote != 0 || text[at] != '>'); ++at) {
-      const char c = text[at];
-      if (quote == 0) number += c == '=' ? 1 : 0;
-      if (quote == c) {
-        quote = 0;
-      } else if (quote == 0 && (c == '"' || c == '\'')) {
-        quote = c;
-      }
-    }
-    if (number > most) return start;
-  }
-  return std::string::npos;
-}
-
-/// The text with blanks in the place of comments, so that elements keep their lines and columns.
-std::string without_comments(std::string text) {
-  for (std::size_t at = text.find("<!--"); at != std::string::npos; at = text.find("<!--", at + 1)) {
-    const std::size_t close = text.find("-->", at + 4);
-    const std::size_t end = close == std::string::npos ? text.size() : close + 3;
-    for (std::size_t i = at; i < end; ++i) text[i] = text[i] == '\n' ? '\n' : ' ';
-  }
-  return text;
-}
-
 /// The name in a message such as `link 'a' is not unique.` or `... for joint [j]`; empty if it has none of `tag`.
 std::string name_in(const std::string& message, const std::string& tag) {
   for (const auto& [open, close] : {std::pair{" '", '\''}, std::pair{" [", ']'}}) {
@@ -101,19 +52,13 @@ std::string name_in(const std::string& message, const std::string& tag) {
 }  // namespace
 
 UrdfText::UrdfText(const std::string& file) : file_(file), text_(read_text(file)) {
-  constexpr std::size_t kMostAttributes = 100;
-  check_text(text_, file);
-  check_elements(text_, file);
-  if (const std::size_t crowded = crowded_element(text_, kMostAttributes); crowded != std::string::npos) {
-    throw InputError(place_of(crowded),
-                     fmt::format("has more than {} attributes; expected an element of URDF, which has fewer", kMostAttributes));
-  }
+  check_xml(text_, file);
   const std::string whole = std::exchange(text_, without_comments(text_));
   if (const std::size_t macro = text_.find("<xacro:"); macro != std::string::npos) {
     throw InputError(place_of(macro), "has macros of xacro; expected URDF, as `xacro FILE > ROBOT.urdf` writes it");
   }
   if (find("robot", 0) == std::string::npos)
-    throw InputError(SourceLocation{file}, "has no element <robot>; expected a URDF file");
+    throw InputError(SourceLocation{file}, "has no element <robot> or <mujoco>; expected a URDF or MJCF file");
   repair_ = repaired_urdf(whole, text_);
   std::vector<std::string> messages;
   {
@@ -157,8 +102,8 @@ void UrdfText::check_tree() const {
                   in_quotes(model_->getRoot()->name)));
 }
 
-std::vector<UrdfNote> UrdfText::repairs() const {
-  std::vector<UrdfNote> notes;
+std::vector<RobotNote> UrdfText::repairs() const {
+  std::vector<RobotNote> notes;
   SourceLocation place{file_, 1, 1};
   std::size_t at = 0;
   for (const UrdfRepair::Note& note : repair_.notes) {  // in the order of the file, so that lines are counted once
@@ -193,11 +138,7 @@ SourceLocation UrdfText::place(const std::string& tag, const std::string& name, 
   return found == std::string::npos ? SourceLocation{file_} : place_of(found);
 }
 
-SourceLocation UrdfText::place_of(std::size_t offset) const {
-  const std::size_t start = text_.rfind('\n', offset) + 1;  // 0 in the first line
-  const auto line = std::count(text_.begin(), text_.begin() + static_cast<std::ptrdiff_t>(offset), '\n');
-  return {file_, static_cast<int>(line) + 1, static_cast<int>(offset - start) + 1};
-}
+SourceLocation UrdfText::place_of(std::size_t offset) const { return place_in_text(text_, offset, file_); }
 
 SourceLocation UrdfText::place_in(const std::vector<std::string>& messages) const {
   for (const std::string& message : messages) {

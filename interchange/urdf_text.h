@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/errors.h"
-#include "interchange/urdf_note.h"
+#include "interchange/robot_note.h"
 #include "interchange/urdf_repair.h"
 
 namespace gaitlab::interchange {
@@ -20,7 +20,7 @@ class UrdfText {
 
   [[nodiscard]] const urdf::ModelInterface& model() const { return *model_; }
   /// Repairs without which urdfdom would refuse the file, one note each.
-  [[nodiscard]] std::vector<UrdfNote> repairs() const;
+  [[nodiscard]] std::vector<RobotNote> repairs() const;
   /// True if the joint has a range, but no element `limit`.
   [[nodiscard]] bool lacks_limit(const std::string& joint) const { return repair_.no_limits.contains(joint); }
   /// True if the joint has an element `limit` with neither `lower` nor `upper`.

@@ -22,7 +22,7 @@
 #include "core/settings/wording.h"
 #include "core/settings/writer.h"
 #include "core/simulation/simulation.h"
-#include "interchange/urdf_module.h"
+#include "interchange/robot_module.h"
 #include "report/analysis/own_overlap.h"
 
 namespace gaitlab::app {
@@ -34,8 +34,8 @@ namespace fs = std::filesystem;
 struct NewFileArguments {
   std::string name;
   std::optional<std::string> out;   ///< file to write; the default is NAME.yaml
-  std::optional<std::string> from;  ///< URDF file; only for modules
-  interchange::UrdfOptions urdf;
+  std::optional<std::string> from;  ///< URDF or MJCF file; only for modules
+  interchange::ImportOptions options;
   std::string module = "y1";        ///< name of a shipped module type, or a file; only for scenarios
   std::optional<int> count = {};    ///< number of modules in the row; only for scenarios
   std::string servo;                ///< name or file of a servo; only for benches
@@ -50,22 +50,33 @@ std::string write_new(const NewFileArguments& arguments, const std::string& text
   return file;
 }
 
-/// The key `may_overlap` for bodies that overlap at all angles, with a note; empty if there are none.
-std::string overlap_text(const std::string& module, const std::string& from) {
+/// The key `may_overlap` for the pairs of the file, and for bodies that overlap at all angles, with a note on these; empty if
+/// there are none.
+std::string overlap_text(const interchange::RobotModule& made, const std::string& from) {
   Problems problems;
-  const ModuleType type = read_module(parse_yaml(module, "module"), true, problems);
+  const ModuleType type = read_module(parse_yaml(made.text, "module"), true, problems);
   problems.raise();
+  std::vector<std::string> names;
+  for (const BodyType& body : type.bodies) names.push_back(body.name);
+  const BodyPairs excluded(made.may_overlap, names);
+  std::vector<BodyPair> pairs;
+  for (const auto& [a, b] : report::always_overlapping(type)) {
+    if (!excluded.has(a, b)) pairs.push_back({names[a], names[b]});
+  }
   std::string text;
-  const auto pairs = report::always_overlapping(type);
-  for (const auto& [a, b] : pairs)
-    text += fmt::format("  - [{}, {}]\n", yaml_text(type.bodies[a].name), yaml_text(type.bodies[b].name));
+  const auto add = [&](const char* comment, const std::vector<BodyPair>& list) {
+    if (!list.empty()) text += comment;
+    for (const BodyPair& pair : list) text += fmt::format("  - [{}, {}]\n", yaml_text(pair.first), yaml_text(pair.second));
+  };
+  add("  # whose contact the file excludes\n", made.may_overlap);
+  add("  # that overlap by more than 0.5 mm at all angles, as drawn\n", pairs);
   if (text.empty()) return text;
-  say(from, "note",
-      fmt::format("may_overlap lists {} of bodies that overlap at all angles, the first '{}' and '{}'",
-                  counted(pairs.size(), "pair"), type.bodies[pairs[0].first].name, type.bodies[pairs[0].second].name));
-  return "# Bodies that overlap by more than 0.5 mm at all angles, as drawn. The check `collision` leaves them "
-         "out.\nmay_overlap:\n" +
-         text;
+  if (!pairs.empty()) {
+    say(from, "note",
+        fmt::format("may_overlap lists {} of bodies that overlap at all angles, the first '{}' and '{}'",
+                    counted(pairs.size(), "pair"), pairs[0].first, pairs[0].second));
+  }
+  return "# Bodies that the check `collision` leaves out:\nmay_overlap:\n" + text;
 }
 
 int new_module(const NewFileArguments& arguments) {
@@ -80,10 +91,10 @@ int new_module(const NewFileArguments& arguments) {
   bool driven = true;
   std::size_t changes = 0;
   if (arguments.from) {
-    interchange::UrdfModule made = interchange::module_of_urdf(*arguments.from, name, arguments.urdf);
-    for (const interchange::UrdfNote& note : made.notes) say(to_string(note.place), "note", note.kind() + (": " + note.text));
-    changes = static_cast<std::size_t>(std::ranges::count(made.notes, true, &interchange::UrdfNote::changed));
-    text = made.text + overlap_text(made.text, *arguments.from);
+    interchange::RobotModule made = interchange::module_of_robot(*arguments.from, name, arguments.options);
+    for (const interchange::RobotNote& note : made.notes) say(to_string(note.place), "note", note.kind() + (": " + note.text));
+    changes = static_cast<std::size_t>(std::ranges::count(made.notes, true, &interchange::RobotNote::changed));
+    text = made.text + overlap_text(made, *arguments.from);
     what = "the robot of " + *arguments.from + " as a module";
     driven = made.driven;
   }
@@ -343,19 +354,18 @@ void add_new_files(Commands& commands, CLI::App& command) {
       commands, "module", "Write a commented module file, to be filled from a data sheet.", new_module,
       [](CLI::App& module, NewFileArguments& arguments) {
         module.add_option("NAME", arguments.name, "name of the module")->required();
-        CLI::Option* const from = module.add_option("--from", arguments.from, "URDF file of the robot, instead of an example");
+        CLI::Option* const from =
+            module.add_option("--from", arguments.from, "URDF or MJCF file of the robot, instead of an example");
         from->check(not_empty);
         module
-            .add_option("--lock", arguments.urdf.locked,
-                        "name or pattern of joints of the URDF file that are fixed at 0; may be repeated")
+            .add_option("--lock", arguments.options.locked,
+                        "name or pattern of joints of the file that are fixed at 0; may be repeated")
             ->check(not_empty)
             ->expected(1)
             ->allow_extra_args(false)
             ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
             ->needs(from);
-        module.add_option("--meshes", arguments.urdf.meshes, "folder of the mesh files of the URDF file")
-            ->check(not_empty)
-            ->needs(from);
+        module.add_option("--meshes", arguments.options.meshes, "folder of the mesh files")->check(not_empty)->needs(from);
         add_out(module, arguments);
       },
       &command);

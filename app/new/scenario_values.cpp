@@ -113,15 +113,20 @@ GaitValues gait_values(const Scenario& one, double amplitude) {
 }
 
 Surroundings surroundings(const ModuleType& type, int modules) {
-  if (type.all.empty() && type.feet.empty()) {
-    return {"  base: fixed              # the module has no contact elements, so that it would fall\n",
-            "ground: {type: none}\ncontact: {on: none}\n"};
+  const bool touches = !type.all.empty() || !type.feet.empty();
+  const Base base = modules > 1 ? Base::floating : type.base;
+  std::string base_text;
+  if (base != Base::floating) {
+    base_text = fmt::format("  base: {:<19}# that of the module\n", name_of(base));
+  } else if (!touches) {
+    base_text = "  base: fixed              # the module has no contact elements, so that it would fall\n";
   }
+  if (!touches) return {base_text, "ground: {type: none}\ncontact: {on: none}\n"};
   const char* const on = type.all.empty()
                              ? "  on: feet                 # the module has elements only at its feet; all: every element\n"
                              : "  on: all                  # every contact element of the module; feet: those of its feet\n";
-  return {"", std::string("ground:\n  friction: 0.8            # coefficient between robot and ground\ncontact:\n") + on +
-                  stiffer(type, modules)};
+  return {base_text, std::string("ground:\n  friction: 0.8            # coefficient between robot and ground\ncontact:\n") +
+                         on + stiffer(type, modules)};
 }
 
 }  // namespace gaitlab::app

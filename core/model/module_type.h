@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "core/model/base.h"
 #include "core/model/body_pairs.h"
 #include "core/model/frames.h"
 #include "core/model/hull.h"
@@ -101,6 +102,7 @@ struct ModuleType {
   std::vector<FaceType> faces;
   std::map<std::string, Connector> connectors = {};  ///< connectors of the faces with known loads, by name
   std::vector<ContactType> feet, all;                ///< feet: used for `on: feet` if on a free body; all: used for `on: all`
+  Base base = Base::floating;                        ///< of a scenario that `gaitlab new scenario` writes for the type
   std::vector<BodyPair> may_overlap = {};            ///< bodies that are not compared for collisions
   Battery battery = {};                              ///< of the motors of each module; voltage 0 without one
   std::size_t root = 0;                              ///< body that is not the child of a hinge; its frame is the module frame

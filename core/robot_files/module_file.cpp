@@ -33,6 +33,7 @@ class ModuleReader {
     check_name(document_.find("name"));
     type_.name = keys.name;
     type_.lattice = keys.lattice;
+    type_.base = keys.base;
     type_.battery = keys.battery;
     each(document_, "bodies", keys.bodies, &ModuleReader::add_body);
     each(document_, "hinges", keys.hinges, &ModuleReader::add_hinge);

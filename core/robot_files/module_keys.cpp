@@ -135,6 +135,8 @@ void ModuleKeys::fields(Fields& f) {
   source_field(f, source);
   required(f).text("name", name, "Name of the type.");
   f.flag("lattice", lattice, "Bodies with faces fill cells of a cubic lattice.");
+  f.choice("base", base, enum_names<Base>(),
+           "Base of a robot of one such module, which gaitlab new scenario writes into robot.base. No effect on a scenario.");
   required(f).by_name("bodies", bodies, "{mass: ...}",
                       "Bodies by name. The frame of the root, which no hinge moves, is the module frame.");
   optional(f).list("hinges", hinges, "Revolute hinges, which join the bodies into one tree.");

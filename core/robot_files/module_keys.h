@@ -71,6 +71,7 @@ struct ModuleKeys {
   std::int64_t version = 1;
   std::string source, name;
   bool lattice = false;
+  Base base = Base::floating;
   std::vector<BodyKeys> bodies;
   std::vector<HingeKeys> hinges;
   std::vector<FaceKeys> faces;

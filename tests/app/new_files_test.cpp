@@ -193,7 +193,8 @@ TEST_F(NewFiles, AQuadrupedWalks) {
 TEST_F(NewFiles, LockNeedsJoints) {
   const std::string file = std::string(source_folder()) + "/tests/data/imports/prismatic_fingers.urdf";
   EXPECT_EQ(refused("module m --lock x"),
-            "gaitlab new module: error: --from is missing: URDF file of the robot, instead of an example; expected gaitlab new "
+            "gaitlab new module: error: --from is missing: URDF or MJCF file of the robot, instead of an example; expected "
+            "gaitlab new "
             "module NAME\n");
   const std::string sliding =
       file +

@@ -18,7 +18,7 @@
 #include "core/scenario/read_scenario.h"
 #include "core/scenario/resolved.h"
 #include "core/scenario/state_file.h"
-#include "interchange/urdf_module.h"
+#include "interchange/robot_module.h"
 #include "report/figures/paper/recipe.h"
 #include "report/remedy/remedy_text.h"
 #include "tests/fuzz/study_readers.h"
@@ -153,7 +153,8 @@ inline void state(const std::string& text) {
   (void)read_state_file(folder().write("state.json", text), *two.robot, two.base, start);
 }
 
-inline void urdf(const std::string& text) { (void)interchange::module_of_urdf(folder().write("robot.urdf", text), "robot"); }
+inline void urdf(const std::string& text) { (void)interchange::module_of_robot(folder().write("robot.urdf", text), "robot"); }
+inline void mjcf(const std::string& text) { (void)interchange::module_of_robot(folder().write("robot.xml", text), "robot"); }
 
 inline constexpr std::array kReaders{Reader{"scenario", scenario},
                                      Reader{"build", build},
@@ -176,7 +177,8 @@ inline constexpr std::array kReaders{Reader{"scenario", scenario},
                                      Reader{"remedy", remedy},
                                      Reader{"csv", csv},
                                      Reader{"state", state},
-                                     Reader{"urdf", urdf}};
+                                     Reader{"urdf", urdf},
+                                     Reader{"mjcf", mjcf}};
 
 /// Calls a reader and ignores an InputError, the only exception that a reader may throw.
 inline void take(const Reader& reader, const std::string& bytes) {

@@ -9,14 +9,14 @@
 #include <vector>
 
 #include "core/robot_files/module_file.h"
-#include "interchange/urdf_module.h"
+#include "interchange/robot_module.h"
 #include "tests/folder.h"
 #include "tests/folders.h"
 #include "tests/messages.h"
 
 namespace gaitlab::test {
 
-inline ModuleType module_in(const interchange::UrdfModule& made) {
+inline ModuleType module_in(const interchange::RobotModule& made) {
   Problems problems;
   const Node document = parse_yaml(made.text, "made.yaml");
   ModuleType type = read_module(document, true, problems);
@@ -44,7 +44,7 @@ class FromUrdf : public ::testing::Test {
  protected:
   ModuleType read_urdf(const std::string& content) {
     made_ =
-        interchange::module_of_urdf(folder_.write("r.urdf", "<robot name='r'>\n" + content + "</robot>\n"), "made", options_);
+        interchange::module_of_robot(folder_.write("r.urdf", "<robot name='r'>\n" + content + "</robot>\n"), "made", options_);
     return module_in(made_);
   }
   std::string refused(const std::string& content) {
@@ -56,12 +56,12 @@ class FromUrdf : public ::testing::Test {
   /// Notes of the module that was read last, as `LINE Changed: TEXT`; line 0 means the whole file.
   std::vector<std::string> notes() const {
     std::vector<std::string> texts;
-    for (const interchange::UrdfNote& note : made_.notes)
+    for (const interchange::RobotNote& note : made_.notes)
       texts.push_back(fmt::format("{} {}: {}", note.place.line, note.kind(), note.text));
     return texts;
   }
-  interchange::UrdfOptions options_;
-  interchange::UrdfModule made_;
+  interchange::ImportOptions options_;
+  interchange::RobotModule made_;
   Folder folder_;
 };
 using Texts = std::vector<std::string>;

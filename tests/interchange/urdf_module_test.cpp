@@ -18,7 +18,7 @@ TEST_F(FromUrdf, ShippedModulesComeBack) {
   for (const auto& [name, file] : shipped_files("module")) {
     const Scenario one = scenario("robot: {modules: " + name + "}\ncontact: {on: none}\nduration: 1\n");
     const ModuleType& type = one.robot->types[0];
-    const ModuleType back = module_in(module_of_urdf(folder_.write("m.urdf", to_urdf(one)), name));
+    const ModuleType back = module_in(module_of_robot(folder_.write("m.urdf", to_urdf(one)), name));
     ASSERT_EQ(back.bodies.size(), type.bodies.size()) << name;
     for (const BodyType& body : type.bodies) {
       const BodyType& other = body_of(back, body.name);
@@ -49,7 +49,7 @@ TEST_F(FromUrdf, DockedBodiesAreOne) {
     Scenario s = random_scenario(random, Base::floating);
     add_motors(random, s);
     const Robot& robot = *s.robot;
-    const ModuleType back = module_in(module_of_urdf(folder_.write("m.urdf", to_urdf(s)), "back"));
+    const ModuleType back = module_in(module_of_robot(folder_.write("m.urdf", to_urdf(s)), "back"));
     ASSERT_EQ(back.bodies.size(), robot.links.size());
     ASSERT_EQ(back.hinges.size(), robot.joints.size());
     // The first moment and the inertia of a link depend on the order of the sums only by rounding errors.
@@ -108,9 +108,11 @@ TEST_F(FromUrdf, MotorsAndPassiveHinges) {
   EXPECT_EQ(type.hinges[2].passive->friction, 0.2);
   EXPECT_TRUE(contains(made_.text,
                        "actuator: {type: servo, voltage: 12, stall_torque: 5, no_load_speed: 3, dry_friction: 0, "
-                       "viscous_friction: 0, load_friction: 0, rotor_inertia: 0, source: \"chosen:"))
+                       "viscous_friction: 0, rotor_inertia: 0, load_friction: 0, source: \"chosen:"))
       << made_.text;
-  EXPECT_TRUE(contains(made_.text, "    actuator: {stall_torque: 1, no_load_speed: 4, dry_friction: 0, viscous_friction: 1}\n"))
+  EXPECT_TRUE(
+      contains(made_.text,
+               "    actuator: {stall_torque: 1, no_load_speed: 4, dry_friction: 0, viscous_friction: 1, rotor_inertia: 0}\n"))
       << made_.text;
   EXPECT_EQ(notes(), (Texts{"0 Changed: effort and velocity become the ends of a motor's line",
                             "0 Not carried over: 1 element of <transmission>", "0 Not carried over: 2 elements of <gazebo>",
@@ -171,8 +173,8 @@ TEST_F(FromUrdf, FaultsOfTheFileHaveTheirPlace) {
             "r:2:1: error: has macros of xacro; expected URDF, as `xacro FILE > ROBOT.urdf` writes it");
   for (const char* const text : {"", " \n", "mass: 1", "<!-- <robot/> -->"}) {
     EXPECT_TRUE(message_of([&] {
-                  module_of_urdf(folder_.write("e.urdf", text), "made");
-                }).ends_with("e.urdf: error: has no element <robot>; expected a URDF file"))
+                  module_of_robot(folder_.write("e.urdf", text), "made");
+                }).ends_with("e.urdf: error: has no element <robot> or <mujoco>; expected a URDF or MJCF file"))
         << text;
   }
 }
@@ -247,7 +249,8 @@ TEST_F(FromUrdf, RefusesElementsWithManyAttributes) {
     for (int k = 0; k < number; ++k) text += fmt::format(" a{}='>'", k);
     return text;
   };
-  const std::string kRefused = "r:2:1: error: has more than 100 attributes; expected an element of URDF, which has fewer";
+  const std::string kRefused =
+      "r:2:1: error: has more than 100 attributes; expected an element of a robot file, which has fewer";
   for (const std::string before : {"", "<!-- don't -->", "<![CDATA[']]>", "<?a '?>"}) {
     const std::string text = refused(before + "<link name='a'" + attributes(100) + "/>\n");
     EXPECT_EQ(text.substr(text.find(": error")), kRefused.substr(kRefused.find(": error"))) << before;

@@ -113,9 +113,10 @@ TEST_F(FromUrdf, MotorsAreChosenWithoutALimit) {
                       second),
           "9 Changed: joint 'aw' has velocity 1001, which counts as not stated; 20 rad/s without load is chosen"}));
   EXPECT_TRUE(
-      contains(made_.text, fmt::format("    actuator: {{stall_torque: {:.3g}, no_load_speed: 20, dry_friction: 0, "
-                                       "viscous_friction: 0.7, source: \"chosen: the URDF has no limit of a motor\"}}\n",
-                                       first)))
+      contains(made_.text,
+               fmt::format("    actuator: {{stall_torque: {:.3g}, no_load_speed: 20, dry_friction: 0, "
+                           "viscous_friction: 0.7, rotor_inertia: 0, source: \"chosen: the URDF has no limit of a motor\"}}\n",
+                           first)))
       << made_.text;
   EXPECT_TRUE(contains(made_.text, "actuator: {type: servo, voltage: 12, stall_torque: 3, no_load_speed: 7,")) << made_.text;
 }
@@ -324,7 +325,7 @@ TEST_F(FromUrdf, CollisionReplacesMeshes) {
 
 /// The collision touches, not the visual: a sphere of 0.02 m within a drawn one of 0.10 m.
 TEST_F(FromUrdf, CollisionIsTheContact) {
-  const ModuleType type = module_in(made_ = module_of_urdf(kImports + "visual_is_not_contact.urdf", "ball"));
+  const ModuleType type = module_in(made_ = module_of_robot(kImports + "visual_is_not_contact.urdf", "ball"));
   ASSERT_EQ(body_of(type, "body").shapes.size(), 1U);
   EXPECT_EQ(body_of(type, "body").shapes[0].size.x(), 0.02);
   EXPECT_EQ(notes().at(1), "3 Not carried over: the visual shapes of link 'body'; those of collision are drawn and touch");
@@ -353,7 +354,7 @@ TEST_F(FromUrdf, PointsOfOurExportAreNotShapes) {
       "robot: {modules: {name: box, bodies: {a: {mass: 1, shape: [{box: [0.1, 0.2, 0.3]}]}}, contacts: {all: shapes}}}\n"
       "contact: {on: all}\nduration: 1\n");
   ASSERT_EQ(one.robot->types[0].all.size(), 8U);
-  const ModuleType back = module_in(made_ = module_of_urdf(folder_.write("m.urdf", to_urdf(one)), "back"));
+  const ModuleType back = module_in(made_ = module_of_robot(folder_.write("m.urdf", to_urdf(one)), "back"));
   ASSERT_EQ(back.bodies[0].shapes.size(), 1U);
   EXPECT_EQ(back.bodies[0].shapes[0].size, Vec3(0.1, 0.2, 0.3));
 }

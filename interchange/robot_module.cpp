@@ -1,4 +1,4 @@
-#include "interchange/urdf_module.h"
+#include "interchange/robot_module.h"
 
 #include <fmt/format.h>
 
@@ -9,9 +9,13 @@
 #include "core/laws/data_sheet.h"
 #include "core/robot_files/module_file.h"
 #include "core/scenario/scenario.h"
+#include "core/settings/text_file.h"
 #include "core/settings/wording.h"
 #include "core/settings/writer.h"
+#include "interchange/mjcf_bodies.h"
+#include "interchange/mjcf_text.h"
 #include "interchange/urdf_bodies.h"
+#include "interchange/xml_text.h"
 
 namespace gaitlab::interchange {
 
@@ -75,20 +79,21 @@ std::string body_text(const BodyType& body) {
 }
 
 /// Keys of the motor that may differ from hinge to hinge, and the gain that fits them.
-std::string motor_text(const UrdfHinge& hinge) {
-  return fmt::format("stall_torque: {}, no_load_speed: {}, dry_friction: {}, viscous_friction: {}", number_text(hinge.effort),
-                     number_text(hinge.speed), number_text(hinge.dry), number_text(hinge.viscous));
+std::string motor_text(const RobotHinge& hinge) {
+  return fmt::format("stall_torque: {}, no_load_speed: {}, dry_friction: {}, viscous_friction: {}, rotor_inertia: {}",
+                     number_text(hinge.effort), number_text(hinge.speed), number_text(hinge.dry), number_text(hinge.viscous),
+                     number_text(hinge.rotor_inertia));
 }
 /// These keys, and the source where one of them was chosen.
-std::string sourced_motor_text(const UrdfHinge& hinge) {
+std::string sourced_motor_text(const RobotHinge& hinge) {
   return motor_text(hinge) + (hinge.source.empty() ? "" : ", source: " + yaml_text(hinge.source));
 }
-std::string gain_text(const UrdfHinge& hinge) {
+std::string gain_text(const RobotHinge& hinge) {
   const double period = Scenario().control_period;
   return fmt::format("Kp: {:.3g}", gain_of_share(kUsualShare, kVoltage, hinge.speed, period));
 }
 
-std::string hinge_text(const UrdfHinge& one, const UrdfBodies& parts, const UrdfHinge* common) {
+std::string hinge_text(const RobotHinge& one, const RobotBodies& parts, const RobotHinge* common) {
   const HingeType& hinge = one.hinge;
   const Pose pose = tidy(hinge.in_parent);
   const double range[] = {hinge.lo, hinge.hi};
@@ -100,71 +105,79 @@ std::string hinge_text(const UrdfHinge& one, const UrdfBodies& parts, const Urdf
   if (hinge.passive) {
     text += fmt::format("    drive: none\n    damping: {}\n    friction: {}\n", number_text(hinge.passive->damping),
                         number_text(hinge.passive->friction));
+    if (hinge.passive->stiffness > 0)
+      text += fmt::format("    stiffness: {}\n    rest: {}\n", number_text(hinge.passive->stiffness),
+                          number_text(hinge.passive->rest));
   } else if (sourced_motor_text(one) != sourced_motor_text(*common)) {
     text += fmt::format("    actuator: {{{}}}\n    controller: {{{}}}\n", sourced_motor_text(one), gain_text(one));
   }
   return text;
 }
 
-/// The text of a module, and the lines at which the parts for the links and joints begin.
+/// The text of a module, and the lines at which the parts for the elements of the robot file begin.
 struct ModuleText {
   struct Part {
     int line;
-    const char* tag;  ///< of the URDF file
-    std::string name;
+    const char* tag;
+    RobotElement of;
   };
   std::string text;
   std::vector<Part> parts = {};
 
-  void begin(const char* tag, const std::string& name) {
-    parts.push_back({static_cast<int>(std::ranges::count(text, '\n')) + 1, tag, name});
+  void begin(const char* tag, const RobotElement& of) {
+    parts.push_back({static_cast<int>(std::ranges::count(text, '\n')) + 1, tag, of});
   }
 };
 
-/// The hinge whose motor is that of the module: the first with a motor that the file states, else the first with a motor.
-const UrdfHinge* common_motor(const std::vector<UrdfHinge>& hinges) {
-  const auto driven = [](const UrdfHinge& one) { return !one.hinge.passive; };
-  const auto stated = [&](const UrdfHinge& one) { return driven(one) && one.source.empty(); };
+/// The hinge whose motor is that of the module: the first with a motor that the file states, else the first with a torque that
+/// it states, else the first with a motor.
+const RobotHinge* common_motor(const std::vector<RobotHinge>& hinges) {
+  const auto driven = [](const RobotHinge& one) { return !one.hinge.passive; };
+  const auto stated = [&](const RobotHinge& one) { return driven(one) && one.source.empty(); };
   auto at = std::ranges::find_if(hinges, stated);
+  if (at == hinges.end())
+    at = std::ranges::find_if(hinges, [&](const RobotHinge& one) { return driven(one) && !one.no_effort; });
   if (at == hinges.end()) at = std::ranges::find_if(hinges, driven);
   return at == hinges.end() ? nullptr : &*at;
 }
 
-ModuleText module_text(const UrdfBodies& parts, const std::string& name, const std::string& file) {
-  const UrdfHinge* const common = common_motor(parts.hinges);
+ModuleText module_text(const RobotBodies& parts, const std::string& name, const std::string& file) {
+  const RobotHinge* const common = common_motor(parts.hinges);
   const std::string from = std::filesystem::path(file).filename().string();
   std::string text = fmt::format(
       "# Module {}, written by gaitlab new module --from. Units: m, kg, N m, rad, s. Every key: gaitlab explain module\n"
       "# Add faces, where modules dock; replace the motor by that of a data sheet.\n",
       name);
-  for (const UrdfNote& note : parts.notes) {
+  for (const RobotNote& note : parts.notes) {
     const std::string line = note.place.line > 0 ? fmt::format(", line {}", note.place.line) : "";
     text += one_line(fmt::format("# {}{}: {}", note.kind(), line, note.text)) + "\n";
   }
-  ModuleText made{text + fmt::format("gaitlab_module: 1\nname: {}\nsource: {}\nbodies:\n", yaml_text(name), yaml_text(from))};
+  ModuleText made{text + fmt::format("gaitlab_module: 1\nname: {}\nsource: {}\n", yaml_text(name), yaml_text(from))};
+  if (parts.base != Base::floating) made.text += fmt::format("base: {}\n", name_of(parts.base));
+  made.text += "bodies:\n";
   for (std::size_t b = 0; b < parts.bodies.size(); ++b) {
-    made.begin("link", parts.links[b]);
+    made.begin(parts.format.body, parts.body_of[b]);
     made.text += body_text(parts.bodies[b]);
   }
   if (!parts.hinges.empty()) made.text += "hinges:\n";
   for (std::size_t j = 0; j < parts.hinges.size(); ++j) {
-    made.begin("joint", parts.joints[j]);
+    made.begin("joint", parts.hinge_of[j]);
     made.text += hinge_text(parts.hinges[j], parts, common);
   }
-  made.begin("robot", "");
+  made.begin("robot", {});
   const bool shapes = std::ranges::any_of(parts.bodies, [](const BodyType& body) { return !body.shapes.empty(); });
   // Without contacts `new scenario` writes a fixed base and no ground: an arm on the ground would bend on its start.
-  if (shapes && parts.fixed_base)
+  if (shapes && parts.base == Base::fixed)
     made.text += "# The base is fixed. For an arm that may touch the ground: contacts: {all: shapes}\n";
-  if (shapes && !parts.fixed_base) made.text += "contacts: {all: shapes}\n";
+  if (shapes && parts.base != Base::fixed) made.text += "contacts: {all: shapes}\n";
   if (common == nullptr) return made;
   made.text += fmt::format(
-      "actuator: {{type: servo, voltage: {}, {}, load_friction: 0, rotor_inertia: 0, source: "
+      "actuator: {{type: servo, voltage: {}, {}, load_friction: 0, source: "
       "{}}}\ncontroller: {{type: pid, {}, Kd: 0}}\n",
       number_text(kVoltage), motor_text(*common),
       yaml_text(common->source.empty()
-                    ? "chosen: the voltage, because URDF has none; torque and speed are the effort and velocity in " + from
-                    : common->source + "; the voltage, because URDF has none"),
+                    ? fmt::format("chosen: the voltage, because {} has none; {}{}", parts.format.name, parts.format.motor, from)
+                    : fmt::format("{}; the voltage, because {} has none", common->source, parts.format.name)),
       gain_text(*common));
   return made;
 }
@@ -177,34 +190,41 @@ void raise_by_line(const Problems& problems) {
   throw InputError(std::move(list));
 }
 
-/// The same problem, placed at the link or joint from which that part of the module text was made.
-Problem at_urdf(const Problem& problem, const ModuleText& made, const UrdfText& urdf, const std::string& file) {
+/// The same problem, placed at the element from which that part of the module text was made.
+Problem at_element(const Problem& problem, const ModuleText& made, const std::string& file) {
   const auto after = std::ranges::find_if(made.parts, [&](const auto& part) { return part.line > problem.place.line; });
-  if (after == made.parts.begin() || std::prev(after)->name.empty()) return {SourceLocation{file}, problem.text};
+  if (after == made.parts.begin() || std::prev(after)->of.name.empty()) return {SourceLocation{file}, problem.text};
   const ModuleText::Part& part = *std::prev(after);
-  const bool named = problem.text.find(in_quotes(part.name)) != std::string::npos;
-  return {urdf.place(part.tag, part.name),
-          named ? problem.text : fmt::format("{} {}: {}", part.tag, in_quotes(part.name), problem.text)};
+  const std::string name = in_quotes(part.of.name);
+  const bool named = problem.text.find(name) != std::string::npos;
+  return {part.of.place, named ? problem.text : fmt::format("{} {}: {}", part.tag, name, problem.text)};
+}
+
+RobotBodies bodies_in(const std::string& file, const ImportOptions& options, Problems& problems) {
+  const std::string text = without_comments(read_text(file));
+  const std::vector<XmlTag> tags = xml_tags(text);
+  if (tags.empty() || tags.front().name != "mujoco") return urdf_bodies(UrdfText(file), options, problems);
+  MjcfText mjcf(file, options.meshes);
+  return mjcf_bodies(mjcf, options, problems);
 }
 
 }  // namespace
 
-UrdfModule module_of_urdf(const std::string& file, const std::string& name, const UrdfOptions& options) {
-  const UrdfText urdf(file);
+RobotModule module_of_robot(const std::string& file, const std::string& name, const ImportOptions& options) {
   Problems problems;
-  const UrdfBodies parts = urdf_bodies(urdf, options, problems);
+  RobotBodies parts = bodies_in(file, options, problems);
   raise_by_line(problems);
   ModuleText made = module_text(parts, name, file);
-  // The reader of module files checks what URDF permits: impossible inertias, axes of length 0, sizes of 0.
+  // The reader of module files checks what robot files permit: impossible inertias, axes of length 0, sizes of 0.
   Problems found;
   static_cast<void>(read_module(parse_yaml(made.text, file), true, found));
   for (const Problem& problem : found.list()) {
-    const Problem placed = at_urdf(problem, made, urdf, file);
+    const Problem placed = at_element(problem, made, file);
     problems.add(placed.place, placed.text);
   }
   raise_by_line(problems);
-  const bool driven = std::ranges::any_of(parts.hinges, [](const UrdfHinge& one) { return !one.hinge.passive; });
-  return {std::move(made.text), driven, parts.notes};
+  const bool driven = std::ranges::any_of(parts.hinges, [](const RobotHinge& one) { return !one.hinge.passive; });
+  return {std::move(made.text), driven, std::move(parts.may_overlap), std::move(parts.notes)};
 }
 
 }  // namespace gaitlab::interchange

@@ -1,4 +1,4 @@
-// Difference of a module from the URDF file that it was made from.
+// Difference of a module from the robot file that it was made from.
 #pragma once
 #include <string>
 
@@ -6,7 +6,7 @@
 
 namespace gaitlab::interchange {
 
-struct UrdfNote {
+struct RobotNote {
   SourceLocation place;  ///< line 0 if it concerns the whole file
   std::string text;
   bool changed = false;  ///< true if the motion differs from that of the file as written; else a part was left out

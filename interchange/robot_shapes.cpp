@@ -1,0 +1,45 @@
+#include "interchange/robot_shapes.h"
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <utility>
+
+#include "core/model/hull_shape.h"
+#include "core/settings/wording.h"
+#include "interchange/robot_xml.h"
+
+namespace gaitlab::interchange {
+
+void add_cylinder_along_z(const Pose& pose, double radius, double length, bool capsule, std::vector<Shape>& shapes) {
+  for (const double side : {-0.5, 0.5}) {
+    if (capsule) shapes.push_back({Shape::Kind::sphere, {pose.R, pose * Vec3(0, 0, side * length)}, {radius, 0, 0}});
+  }
+  shapes.push_back({Shape::Kind::cylinder, {pose.R * y_from_z().transpose(), pose.p}, {radius, length, 0}});
+}
+
+void RobotHulls::add(const RobotElement& of, const std::string& what, const Pose& pose, const MeshHull& hull,
+                     std::vector<Shape>& shapes, std::vector<RobotNote>& notes) {
+  std::optional<Shape> shape = hull_shape(pose, hull.points);
+  if (!shape) {
+    notes.push_back({of.place, what + ", all points of which are in one plane; it has no shape", true});
+    return;
+  }
+  shapes.push_back(std::move(*shape));
+  if (count_++ > 0 && hull.gap <= gap_) return;
+  gap_ = hull.gap;
+  widest_ = of;
+}
+
+void RobotHulls::add_note(const char* body, std::vector<RobotNote>& notes) const {
+  if (count_ == 0) return;
+  notes.push_back(
+      {widest_.place,
+       fmt::format("{} the convex hull of at most {} of its points; the widest gap is {:.2g} % of its longest edge, "
+                   "in {} {}",
+                   count_ == 1 ? fmt::format("1 {} is", one_) : fmt::format("each of {} {} is", count_, several_), kFewPoints,
+                   100 * gap_, body, in_quotes(widest_.name)),
+       true});
+}
+
+}  // namespace gaitlab::interchange
