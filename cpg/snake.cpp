@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <stdexcept>
 
@@ -67,6 +68,8 @@ Snake::Snake(const RobotInfo& robot, const Settings& settings) : s_(settings), j
     members_.push_back({j, yaw, joint.axis[yaw ? 2 : 1] > 0 ? 1.0 : -1.0, number * wave.lag + (yaw ? s_.model.shift : 0)});
     ++(yaw ? yaws_ : pitches_);
   }
+  std::map<std::int64_t, int> children;
+  for (const JointInfo& joint : robot.joints) branches_ = branches_ || ++children[joint.parent] > 1;
   const auto check = [&](const Wave& wave, std::size_t count, const char* kind, const char* axis) {
     if (count > 0 || (wave.amplitude == 0 && wave.offset == 0)) return;
     throw SettingError(std::string("model.") + kind, std::string("model.") + kind +

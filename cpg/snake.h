@@ -40,6 +40,7 @@ class Snake final : public Cpg {
   };
   Settings s_;
   std::size_t joints_, pitches_ = 0, yaws_ = 0;
+  bool branches_ = false;  ///< true if a joint, or the base, carries several chains
   std::vector<Member> members_;
 };
 

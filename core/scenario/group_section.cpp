@@ -28,14 +28,15 @@ std::string refused_name(const std::string& name, const std::vector<std::string>
 }
 
 /// The message for a member that matches no joint, or "". `groups` is the section.
-std::string refused_member(const std::string& member, const std::vector<std::string>& joints, const Node& groups) {
+std::string refused_member(const std::string& member, const std::vector<std::string>& joints, const JointGroups& legs,
+                           const Node& groups) {
   const bool group = groups.find(member) != nullptr && joints_of(member, joints).empty();
-  return group ? in_quotes(member) + " is a group; expected a joint or a pattern" : no_joint(member, joints);
+  return group ? in_quotes(member) + " is a group; expected a joint or a pattern" : no_joint(member, joints, "joint", legs);
 }
 
 /// Joints of a group, in the order of the robot; none if the group has a fault.
 std::vector<std::string> members(const std::string& name, const Node& node, const std::vector<std::string>& joints,
-                                 const Node& groups, Problems& problems) {
+                                 const JointGroups& legs, const Node& groups, Problems& problems) {
   const std::size_t before = problems.size();
   const bool list = node.kind == Node::Kind::list;
   if (!list && node.kind != Node::Kind::scalar) {
@@ -47,9 +48,9 @@ std::vector<std::string> members(const std::string& name, const Node& node, cons
   for (const Node& item : list ? std::span<const Node>(node.items) : std::span<const Node>(&node, 1)) {
     const Reading<std::string> text = read_scalar(item);
     const std::string wrong =
-        text.ok() ? refused_member(text.value, joints, groups) : "a member of group " + name + " " + text.wrong;
+        text.ok() ? refused_member(text.value, joints, legs, groups) : "a member of group " + name + " " + text.wrong;
     if (!wrong.empty()) problems.add(item.place, wrong);
-    for (const std::size_t j : text.ok() ? joints_of(text.value, joints) : std::vector<std::size_t>()) chosen[j] = true;
+    for (const std::size_t j : text.ok() ? joints_of(text.value, joints, legs) : std::vector<std::size_t>()) chosen[j] = true;
   }
   std::vector<std::string> all;
   for (std::size_t j = 0; j < joints.size() && problems.size() == before; ++j) {
@@ -61,7 +62,7 @@ std::vector<std::string> members(const std::string& name, const Node& node, cons
 }  // namespace
 
 JointGroups read_groups(const Node& node, const std::vector<std::string>& joints, const std::vector<std::string>& modules,
-                        Problems& problems) {
+                        const JointGroups& legs, Problems& problems) {
   JointGroups groups;
   if (node.kind != Node::Kind::map) {
     problems.add(node.place, fmt::format("groups is {}; expected a map NAME: [JOINT, ...]", found(node)));
@@ -71,7 +72,7 @@ JointGroups read_groups(const Node& node, const std::vector<std::string>& joints
     const auto& [name, place] = node.keys[i];
     const std::string wrong = refused_name(name, joints, modules);
     if (!wrong.empty()) problems.add(place, wrong);
-    groups.push_back({name, members(clipped(name), node.items[i], joints, node, problems)});
+    groups.push_back({name, members(clipped(name), node.items[i], joints, legs, node, problems)});
   }
   return groups;
 }

@@ -51,8 +51,10 @@ std::vector<std::string> paths_of(const std::vector<ScenarioKey>& keys, const st
 std::string of_other_types(const std::vector<ScenarioKey>& keys, const std::string& name) {
   std::vector<std::string> types;
   std::optional<Kind> last;  // each kind is named only once
+  const Entry* seen = nullptr;
   for (const ScenarioKey& key : keys) {
-    if (key.plugin == nullptr || name_of_key(key.path) != name) continue;
+    if (key.plugin == nullptr || key.plugin == seen || name_of_key(key.path) != name) continue;
+    seen = key.plugin;
     const std::string kind = last == key.plugin->kind ? "" : std::string(word(key.plugin->kind)) + " ";
     types.push_back(kind + std::string(key.plugin->name));
     last = key.plugin->kind;

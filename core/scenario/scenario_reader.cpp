@@ -158,21 +158,24 @@ void ScenarioReader::read_body() {
   if (!scenario_.robot) return;
   joints_ = std::make_shared<const std::vector<std::string>>(joint_names(*scenario_.robot));
   modules_ = std::make_shared<const std::vector<std::string>>(module_names(*scenario_.robot));
-  if (const Node* groups = root_.find(kGroupsSection)) scenario_.groups = read_groups(*groups, *joints_, *modules_, problems_);
-  add_leg_groups();
+  read_groups_and_legs();
 }
 
-void ScenarioReader::add_leg_groups() {
+void ScenarioReader::read_groups_and_legs() {
+  const Node* const section = root_.find(kGroupsSection);
+  Problems reported_later;
+  const JointGroups named = section == nullptr ? JointGroups() : read_groups(*section, *joints_, *modules_, {}, reported_later);
   Initial start;
   if (const Node* node = root_.find("initial"); node != nullptr && node->kind == Node::Kind::map) {
-    Problems reported_later;
     Reader reader(*node, "initial", reported_later, joints_.get());
-    reader.groups(scenario_.groups);
+    reader.groups(named);
     start.fields(reader);
   }
   std::vector<double> angles;
   for (std::size_t j = 0; j < joints_->size(); ++j) angles.push_back(start.angles[j]);
-  std::ranges::move(leg_groups(*scenario_.robot, angles, scenario_.orientation), std::back_inserter(scenario_.groups));
+  const JointGroups legs = leg_groups(*scenario_.robot, angles, scenario_.orientation);
+  if (section != nullptr) scenario_.groups = read_groups(*section, *joints_, *modules_, legs, problems_);
+  scenario_.groups.insert(scenario_.groups.end(), legs.begin(), legs.end());
 }
 
 void ScenarioReader::prepare(Reader& reader) const {

@@ -41,8 +41,8 @@ class ScenarioReader {
   void tell_dropped_keys(const std::vector<std::string>& sets);
   void read_name(Reader& reader);
   void read_body();
-  /// Adds the legs of the robot, in the pose of the start, to the groups.
-  void add_leg_groups();
+  /// Reads the groups, and adds the legs that the robot has in the pose of the start.
+  void read_groups_and_legs();
   [[nodiscard]] bool reads(const std::string& section) const { return touched_.has(section); }
   void prepare(Reader& reader) const;
   void read_sections();

@@ -88,12 +88,27 @@ std::string of_the_other_kind(const std::string& text, const std::vector<std::st
   return fmt::format("{} is not a module; expected its module, {}", in_quotes(text), head);
 }
 
+/// Message for a text that means no joint of a leg.
+std::string no_leg(const std::string& text, const JointGroups& groups, const std::string& part) {
+  std::vector<std::string> legs;
+  std::size_t longest = 0;
+  for (const JointGroup& group : groups) {
+    if (!group.name.starts_with(kLegGroup) || group.name.find('/') != std::string::npos) continue;
+    legs.push_back(group.name);
+    longest = std::max(longest, group.joints.size());
+  }
+  if (legs.empty()) return fmt::format("no {} {}; the robot has no legs", part, in_quotes(text));
+  return fmt::format("no {} {}{}; each has at most {}", part, in_quotes(text), offer(text, legs, "legs"),
+                     counted(longest, "joint"));
+}
+
 }  // namespace
 
 std::string no_joint(const std::string& text, const std::vector<std::string>& joints, const std::string& part,
                      const JointGroups& groups) {
   if (!joints_of(text, joints, groups).empty()) return "";
   if (group_named(text, groups) != nullptr) return "";  // the group has a fault, which is reported where it is given
+  if (text.starts_with(kLegGroup)) return no_leg(text, groups, part);
   if (!is_pattern(text)) {
     if (std::string other = of_the_other_kind(text, joints, part); !other.empty()) return other;
     const std::string range = range_beside(text, joints);

@@ -42,6 +42,8 @@ TEST(LegGroups, StandWherePatternsStand) {
   same("\"leg:*/0\": 11", entries(
                               s, [](const Leg&, std::size_t k) { return k == 0; }, 11));
   EXPECT_FALSE(contains(resolved(s), "groups:")) << "they follow again";
+  const Scenario group = shipped("hexapod.yaml", {"groups={front: \"leg:front_*\"}"});
+  EXPECT_EQ(group.groups.front().joints.size(), 4U) << "also as members of groups";
 }
 
 TEST(LegGroups, OfAnImportedRobot) {
@@ -80,10 +82,13 @@ TEST(LegColumns, LoadAndFoot) {
 }
 
 TEST(LegGroups, MessagesHaveTheNearestLeg) {
-  EXPECT_TRUE(contains(message_of([] { shipped("hexapod.yaml", {"controller.Kp={leg:frontleft: 3}"}); }),
-                       "no joint 'leg:frontleft'; did you mean 'leg:front_left'?"));
-  EXPECT_TRUE(contains(message_of([] { shipped("caterpillar.yaml", {"controller.Kp={leg:front_left: 3}"}); }),
-                       "no joint 'leg:front_left'"));
+  const auto refused = [](const char* name, const char* set) { return message_of([&] { shipped(name, {set}); }); };
+  EXPECT_TRUE(contains(refused("hexapod.yaml", "controller.Kp={leg:frontleft: 3}"),
+                       "no joint 'leg:frontleft'; did you mean 'leg:front_left'?; each has at most 2 joints"));
+  EXPECT_TRUE(
+      contains(refused("hexapod.yaml", "controller.Kp={\"leg:*/7\": 3}"), "no joint 'leg:*/7'; known legs: leg:front_left"));
+  EXPECT_TRUE(contains(refused("caterpillar.yaml", "controller.Kp={leg:front_left: 3}"),
+                       "no joint 'leg:front_left'; the robot has no legs"));
 }
 
 }  // namespace
