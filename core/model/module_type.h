@@ -43,6 +43,7 @@ struct BodyType {
   Vec3 com = Vec3::Zero();      ///< m, body frame
   Mat3 inertia = Mat3::Zero();  ///< kg m^2, about the COM, body axes
   std::vector<Shape> shapes = {};
+  bool bare = false;  ///< true for `shape: []`: the body has no extent, so that checks of overlaps leave it out
   double volume = 0;  ///< m^3, of the union of the shapes, if they determine the inertia; 0 if the inertia is stated
 };
 

@@ -78,6 +78,7 @@ void inertia_of_shapes(BodyType& body, bool with_com, const SourceLocation& plac
 
 bool complete_body(const Node& node, const SourceLocation& place, bool read, BodyKeys& body, Problems& problems) {
   const std::size_t before = problems.size();
+  body.bare = body.outline.empty() && node.find("shape") != nullptr;
   for (std::size_t i = 0; i < body.outline.size(); ++i)
     add_shape(node.find("shape")->items[i], body.outline[i], body, problems);
   body.inertia = inertia_matrix(body.tensor);

@@ -52,8 +52,11 @@ void BodyKeys::fields(Fields& f) {
                      any("kg m^2",
                          "xx, yy, zz, xy, xz, yz about the COM, body axes; elements of the tensor (xy: -sum of m x y). Without "
                          "this key: inertia of the shapes at uniform density."));
-  optional(f).list("shape", outline,
-                   "Outline of the body. Each shape has exactly one of box, cylinder, half_cylinder, sphere and hull.");
+  optional(f).list(
+      "shape", outline,
+      "Outline of the body. Each shape has exactly one of box, cylinder, half_cylinder, sphere and hull. "
+      "[] states that the body has no extent: the checks collision and in_ground, which otherwise need the shapes of all "
+      "bodies, leave it out.");
 }
 
 void SpringKeys::fields(Fields& f) {

@@ -304,6 +304,10 @@ Overlaps overlaps(const Scenario& scenario, const Recording& r) {
   const std::vector<Piece> pieces = pieces_of(robot);
   std::set<std::size_t> shaped;
   for (const Piece& piece : pieces) shaped.insert(piece.body);
+  for (std::size_t b = 0; b < robot.bodies.size() && !shaped.empty(); ++b) {
+    const Body& body = robot.bodies[b];
+    if (robot.types[robot.modules[body.module].type].bodies[body.type].bare) shaped.insert(b);
+  }
   OverlapSearch search(scenario, pieces);
   Kinematics k(robot);
   Row there(pieces);

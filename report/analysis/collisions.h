@@ -30,7 +30,8 @@ struct Sunk {
 };
 
 struct Overlaps {
-  std::size_t shaped = 0;  ///< number of bodies with a shape; 0 if overlaps are not known, for example in a run without poses
+  std::size_t shaped = 0;  ///< number of bodies with a shape, or `shape: []` beside others; 0 if overlaps are not known, for
+                           ///< example in a run without poses
   std::optional<Collision> collision = {};
   std::optional<Sunk> sunk = {};
 };

@@ -183,19 +183,30 @@ std::string Verdict::why() const {
 
 namespace {
 
-/// `may_overlap leaves out m0/trunk and m1/leg`, for the line `rests on`. Empty if no pair is left out.
-std::string left_out_sentence(const Scenario& scenario) {
+/// `WHAT leaves out A, B, C and 2 more`; empty without names.
+std::string left_out(const char* what, std::vector<std::string> names) {
   constexpr std::size_t kMost = 3;
-  std::vector<std::string> pairs;
+  if (names.empty()) return "";
+  const std::size_t more = names.size() > kMost ? names.size() - kMost : 0;
+  names.resize(names.size() - more);
+  return fmt::format("{} leaves out {}{}", what, fmt::join(names, ", "), more > 0 ? fmt::format(" and {} more", more) : "");
+}
+
+/// Sentence on parts that the checks of overlaps leave out, for the line `rests on`: `may_overlap leaves out m0/trunk and
+/// m1/leg`, `shape: [] leaves out dog/hip`. Empty if there is nothing.
+std::string left_out_sentence(const Scenario& scenario) {
+  std::vector<std::string> pairs, bare;
   for (const ModuleType& type : scenario.robot->types) {
     for (const BodyPair& pair : type.may_overlap)
       pairs.push_back(fmt::format("{0}/{1} and {0}/{2}", type.name, pair.first, pair.second));
+    for (const BodyType& body : type.bodies) {
+      if (body.bare) bare.push_back(fmt::format("{}/{}", type.name, body.name));
+    }
   }
   for (const BodyPair& pair : scenario.may_overlap) pairs.push_back(fmt::format("{} and {}", pair.first, pair.second));
-  if (pairs.empty()) return "";
-  const std::size_t more = pairs.size() > kMost ? pairs.size() - kMost : 0;
-  pairs.resize(pairs.size() - more);
-  return fmt::format("may_overlap leaves out {}{}", fmt::join(pairs, ", "), more > 0 ? fmt::format(" and {} more", more) : "");
+  const std::string of_pairs = left_out("may_overlap", std::move(pairs));
+  const std::string of_bare = left_out("shape: []", std::move(bare));
+  return of_pairs + (of_pairs.empty() || of_bare.empty() ? "" : "; ") + of_bare;
 }
 
 /// Sentence on the sources of motors and docks, `motors: identified from 8 logs (held-out MAE 43.6 mrad)`. A run beyond the

@@ -111,6 +111,30 @@ TEST(OwnOverlap, AModuleThatFoldsIntoItself) {
   EXPECT_EQ(scenario(resolved(of_robot)).may_overlap, of_robot.may_overlap);
 }
 
+/// `shape: []` states that a body has no extent; a body without the key leaves the checks of overlaps without an answer.
+TEST(OwnOverlap, ABodyWithoutExtent) {
+  const auto judged = [](const char* shape) {
+    const Scenario s = scenario(
+        "{gaitlab: 1, robot: {modules: rods, types: {rods: {gaitlab_module: 1, name: rods, bodies: {"
+        "trunk: {mass: 1, inertia: [0.1, 0.1, 0.1, 0, 0, 0], shape: [{box: [0.2, 0.2, 0.1]}]}, "
+        "hip: {mass: 0.1, inertia: [0.001, 0.001, 0.001, 0, 0, 0]" +
+        std::string(shape) +
+        "}}, hinges: [{name: h, parent: trunk, child: hip, axis: [0, 1, 0], range: [-1, 1]}], contacts: {all: shapes}, "
+        "actuator: {type: servo, voltage: 6, stall_torque: 1, no_load_speed: 6}, controller: {type: pid, Kp: 5}}}}, "
+        "physics: {engine: articulated}, cpg: {type: sine, frequency: 1, amplitude: 0.1}, contact: {on: all}, duration: 4}");
+    const Recording record = run(s);
+    return verdict(s, record, summarise(s, record, 0), overlaps(s, record));
+  };
+  const auto status = [](const Verdict& made, const char* id) {
+    return std::ranges::find(made.checks, id, &Check::id)->status;
+  };
+  for (const char* const id : {"collision", "in_ground"}) {
+    EXPECT_EQ(status(judged(""), id), CheckStatus::not_judged) << id;
+    EXPECT_EQ(status(judged(", shape: []"), id), CheckStatus::pass) << id;
+  }
+  EXPECT_TRUE(contains(judged(", shape: []").figures, "shape: [] leaves out rods/hip")) << judged(", shape: []").figures;
+}
+
 /// A hip overlaps its trunk, and a leg overlaps both by design. The leg may turn there by 0.3 rad, but a raised leg enters the
 /// trunk.
 TEST(OwnOverlap, ByDesign) {
