@@ -25,28 +25,53 @@ constexpr double kHeaviest = 1e9;   // kg
 constexpr double kLongest = 1e6;    // m
 constexpr double kParallel = 1e-6;  // between the axes of a planar base and those of the world
 
-/// Compiles the text. Attributes that libmujoco lacks are dropped one after the other, as its messages name them.
-MjcfRobot compiled(MjcfText& text) {
+/// Compiles the text with some of its meshes. Attributes that libmujoco lacks are dropped one after the other, as its messages
+/// name them.
+MjcfRobot compiled(MjcfText& text, const std::set<std::size_t>& meshes, std::vector<std::string>& warnings) {
   for (;;) {
-    CompiledMjcf made = compile_mjcf(text.text(), text.file());
+    CompiledMjcf made = compile_mjcf(text.text(meshes), text.file());
+    warnings = made.warnings;
     if (!made.error) return std::move(made.model);
-    const std::string& error = made.error->text;
-    std::array<std::string, 2> names;  // attribute, element
-    std::size_t at = 0;
-    for (std::string& name : names) {
-      const std::size_t begin = error.find('\'', at);
-      const std::size_t end = begin == std::string::npos ? begin : error.find('\'', begin + 1);
-      if (end != std::string::npos) name = error.substr(begin + 1, end - begin - 1);
-      at = end == std::string::npos ? error.size() : end + 1;
+    const MjcfError& error = *made.error;
+    const std::size_t quote = error.text.find('\'');
+    const std::string name = quote == std::string::npos ? "" : error.text.substr(quote + 1, error.text.rfind('\'') - quote - 1);
+    const bool unknown = error.text.starts_with("unrecognized ");
+    if (unknown && text.drop_attribute(error.element, name)) continue;
+    const std::string of = error.element.empty() ? "" : fmt::format(" of <{}>", error.element);
+    if (error.text.starts_with("unrecognized element")) {
+      throw InputError(text.place(error.line),
+                       fmt::format("<{}> is not an element that libmujoco 2.2.2, which reads MJCF, knows at "
+                                   "this place",
+                                   error.element));
     }
-    if (error.starts_with("unrecognized attribute") && text.drop_attribute(names[1], names[0])) continue;
-    if (error.starts_with("unrecognized element")) {
-      throw InputError(
-          text.place(made.error->line),
-          fmt::format("<{}> is unknown to libmujoco 2.2.2, which reads MJCF; write out what it stands for", names[0]));
-    }
-    throw InputError(text.place(made.error->line), "libmujoco: " + error);
+    if (unknown)
+      throw InputError(text.place(error.line),
+                       fmt::format("{}{} is unknown to libmujoco 2.2.2, which reads MJCF", in_quotes(name), of));
+    throw InputError(text.place(error.line),
+                     fmt::format("{}{}{}", error.text.starts_with("is not") ? "" : "libmujoco: ", error.text, of));
   }
+}
+
+/// Compiles the text, with the mesh files of the geoms that collide or give a body its inertia. Throws InputError for a NaN.
+MjcfRobot compiled(MjcfText& text, std::vector<RobotNote>& notes) {
+  std::vector<std::string> warnings;
+  const MjcfRobot drawn = compiled(text, {}, warnings);
+  if (drawn.bodies.size() != text.bodies() + 1)
+    throw InputError(SourceLocation{text.file()}, "has elements that stand for several bodies; write them out");
+  std::set<std::size_t> needed;
+  for (std::size_t b = 1; b < drawn.bodies.size(); ++b) {
+    for (const MjcfGeom& geom : drawn.bodies[b].geoms) {
+      const bool collides = geom.contype != 0 || geom.conaffinity != 0 || text.paired().contains(geom.name);
+      if (geom.type == MjcfGeom::Type::mesh && (collides || !text.states_inertia(b))) needed.insert(geom.mesh);
+    }
+  }
+  MjcfRobot made = compiled(text, needed, warnings);
+  for (const std::string& one : warnings) {
+    if (one.find("NaN") != std::string::npos)
+      throw InputError(SourceLocation{text.file()}, "has a NaN; expected finite numbers");
+    notes.push_back({{text.file()}, "libmujoco: " + one.substr(0, one.find('\n')), true});
+  }
+  return made;
 }
 
 /// Points of an ellipsoid: a subdivided octahedron on the unit sphere, stretched.
@@ -65,10 +90,15 @@ std::vector<Vec3> ellipsoid(const Vec3& radii) {
 class MjcfWalk {
  public:
   MjcfWalk(MjcfText& text, const ImportOptions& options, Problems& problems)
-      : text_(text), options_(options), problems_(problems), model_(compiled(text)), of_(model_.bodies.size()) {}
+      : text_(text),
+        options_(options),
+        problems_(problems),
+        made_{{"MJCF", "body", "torque is the largest force in "}},
+        model_(compiled(text, made_.notes)),
+        of_(model_.bodies.size()) {}
 
   RobotBodies read() {
-    made_.notes = text_.notes();
+    made_.notes.insert(made_.notes.end(), text_.notes().begin(), text_.notes().end());
     const std::set<std::string> locked = locked_joints(moving(), options_.locked, problems_);
     choose_root(locked);
     if (root_ == 0) return std::move(made_);
@@ -89,9 +119,9 @@ class MjcfWalk {
 
   [[nodiscard]] std::vector<std::string> moving() const {
     std::vector<std::string> names;
-    for (const MjcfBody& body : model_.bodies) {
-      for (const MjcfJoint& joint : body.joints) {
-        if (joint.type != Type::free) names.push_back(joint.name);
+    for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
+      for (std::size_t k = 0; k < model_.bodies[b].joints.size(); ++k) {
+        if (model_.bodies[b].joints[k].type != Type::free) names.push_back(name_of_joint(b, k));
       }
     }
     return names;
@@ -123,11 +153,11 @@ class MjcfWalk {
     for (const auto& [b, count] : hinges) {
       if (b == root_) continue;
       const bool moves = count > 0 || !model_.bodies[b].joints.empty();
-      made_.notes.push_back(
-          {text_.body(b),
-           fmt::format("body {}{}", in_quotes(name_of_body(b)),
-                       moves ? " and what it carries, which are not part of the robot" : ", which does not move"),
-           false});
+      made_.notes.push_back({text_.body(b),
+                             fmt::format("body {}{}", in_quotes(name_of_body(b)),
+                                         moves ? " and what it carries are left out; the robot is the tree with the most hinges"
+                                               : ", which does not move"),
+                             moves});
     }
   }
 
@@ -173,20 +203,44 @@ class MjcfWalk {
   std::vector<std::size_t> root_hinges(const std::set<std::string>& locked) {
     const MjcfBody& root = model_.bodies[root_];
     const auto is = [](Type type) { return [type](const MjcfJoint& joint) { return joint.type == type; }; };
-    if (std::ranges::any_of(root.joints, is(Type::free))) return {};
+    if (std::ranges::any_of(root.joints, is(Type::free))) {
+      note_free_root();
+      return {};
+    }
     const auto along = [&](Type type, const Vec3& axis) {
       return std::ranges::count_if(root.joints, [&](const MjcfJoint& joint) {
                return joint.type == type && std::abs((root.in_parent.R * joint.axis).dot(axis)) > 1 - kParallel;
              }) == 1;
     };
-    const bool unlocked = std::ranges::none_of(root.joints, [&](const MjcfJoint& one) { return locked.contains(one.name); });
+    bool unlocked = true;
+    for (std::size_t k = 0; k < root.joints.size(); ++k) unlocked = unlocked && !locked.contains(name_of_joint(root_, k));
     if (unlocked && root.joints.size() == 3 && along(Type::slide, Vec3::UnitX()) && along(Type::slide, Vec3::UnitZ()) &&
         along(Type::hinge, Vec3::UnitY())) {
       made_.base = Base::planar;
+      note_free_root();
       return {};
     }
     made_.base = Base::fixed;
     return moving_hinges(root_, locked);
+  }
+
+  /// Adds notes on what a base that moves freely does not have: friction, springs, ranges and actuators.
+  void note_free_root() {
+    const MjcfBody& root = model_.bodies[root_];
+    std::string lost;
+    const auto add = [&](bool any, const char* what) {
+      if (any) lost += (lost.empty() ? "" : ", ") + std::string(what);
+    };
+    const auto some = [&](auto has) { return std::ranges::any_of(root.joints, has); };
+    add(some([](const MjcfJoint& one) { return one.damping > 0; }), "damping");
+    add(some([](const MjcfJoint& one) { return one.friction > 0; }), "friction");
+    add(some([](const MjcfJoint& one) { return one.armature > 0; }), "armature");
+    add(some([](const MjcfJoint& one) { return one.stiffness > 0; }), "springs");
+    add(some([](const MjcfJoint& one) { return one.limited; }), "range");
+    add(std::ranges::any_of(model_.actuators, [&](const MjcfActuator& one) { return one.body == root_; }), "actuators");
+    if (!lost.empty())
+      changed(text_.joint(root_, 0),
+              fmt::format("{} of the joints of the root {}, which moves freely", lost, in_quotes(name_of_body(root_))));
   }
 
   /// Numbers of a body's hinges that are not locked. Adds a problem for joints of another type.
@@ -194,8 +248,8 @@ class MjcfWalk {
     std::vector<std::size_t> hinges;
     const std::vector<MjcfJoint>& joints = model_.bodies[b].joints;
     for (std::size_t k = 0; k < joints.size(); ++k) {
-      if (locked.contains(joints[k].name)) {
-        changed(text_.joint(b, k), fmt::format("joint {} is fixed, as --lock asks", in_quotes(joints[k].name)));
+      if (locked.contains(name_of_joint(b, k))) {
+        changed(text_.joint(b, k), fmt::format("joint {} is fixed, as --lock asks", in_quotes(name_of_joint(b, k))));
       } else if (joints[k].type == Type::hinge) {
         hinges.push_back(k);
       } else if (joints[k].type != Type::free) {
@@ -243,16 +297,19 @@ class MjcfWalk {
 
   void read_motor(std::size_t b, std::size_t k, RobotHinge& made) {
     const MjcfJoint& joint = model_.bodies[b].joints[k];
-    std::optional<double> most;
-    bool driven = false;
+    double most = 0;
+    bool driven = false, limited = true;
     for (const MjcfActuator& one : model_.actuators) {
       if (one.body != b || one.joint != k) continue;
       driven = true;
       positions_ += one.position ? 1 : 0;
-      if (one.force) most = std::max(most.value_or(0), *one.force * std::abs(one.gear));
+      limited = limited && one.force.has_value();
+      most += one.force.value_or(0) * std::abs(one.gear);
     }
-    const std::optional<double> limit = text_.torque_limit(b, k);
-    if (limit) most = std::min(*limit, most.value_or(*limit));
+    if (joint.torque_limit > 0) {
+      most = limited ? std::min(joint.torque_limit, most) : joint.torque_limit;
+      limited = true;
+    }
     if (!driven) {
       made.hinge.passive = Passive{.stiffness = joint.stiffness,
                                    .rest = joint.rest - joint.at_start,
@@ -265,14 +322,14 @@ class MjcfWalk {
     made.dry = joint.friction;
     made.viscous = joint.damping;
     made.rotor_inertia = joint.armature;
-    made.no_effort = !most || !(*most > 0) || !(*most <= kMostTorque);
-    made.effort = most.value_or(0);
+    made.no_effort = !limited || !(most > 0) || !(most <= kMostTorque);
+    made.effort = most;
     made.speed = kChosenSpeed;
     made.no_speed = true;
   }
 
   void add_geom(std::size_t b, const MjcfGeom& geom, const Placed& at) {
-    if (geom.contype == 0 && geom.conaffinity == 0) {
+    if (geom.contype == 0 && geom.conaffinity == 0 && !text_.paired().contains(geom.name)) {
       drawn_.push_back(b);
       return;
     }
@@ -386,8 +443,8 @@ class MjcfWalk {
       changed({text_.file()},
               fmt::format("the largest force and a chosen {} rad/s become the ends of a motor's line", kChosenSpeed));
     if (positions_ > 0)
-      left_out({text_.file()},
-               fmt::format("gains of {}: the module has a gain of its own", counted(positions_, "position actuator")));
+      left_out({text_.file()}, fmt::format("gains of {} that follow angles or speeds: the module has a gain of its own",
+                                           counted(positions_, "actuator")));
     note_joints(passive_armature_, "the armature", ", because it has no motor");
     note_joints(driven_springs_, "the spring", " beside its motor");
     if (!drawn_.empty())
@@ -402,8 +459,8 @@ class MjcfWalk {
   MjcfText& text_;
   const ImportOptions& options_;
   Problems& problems_;
+  RobotBodies made_;
   MjcfRobot model_;
-  RobotBodies made_{{"MJCF", "body", "torque is the largest force in "}};
   std::size_t root_ = 0;
   std::vector<std::optional<Placed>> of_;  ///< by body
   std::vector<std::vector<RobotMass>> masses_;

@@ -28,7 +28,8 @@ struct Mujoco {
 };
 
 [[noreturn]] void fail(const char* text) { throw std::runtime_error(text); }
-void ignore(const char* /*text*/) {}
+thread_local std::vector<std::string> warned;  // during a call
+void keep(const char* text) { warned.emplace_back(text); }
 
 const Mujoco& mujoco(const std::string& file) {
   static void* const library = dlopen(GAITLAB_MUJOCO, RTLD_NOW | RTLD_LOCAL);
@@ -54,7 +55,7 @@ const Mujoco& mujoco(const std::string& file) {
     find(on_error, "mju_user_error");
     find(on_warning, "mju_user_warning");
     *on_error = fail;
-    *on_warning = ignore;
+    *on_warning = keep;
     return found;
   }();
   return functions;
@@ -63,17 +64,18 @@ const Mujoco& mujoco(const std::string& file) {
 Vec3 vec(const mjtNum* x) { return {x[0], x[1], x[2]}; }
 Mat3 rotation(const mjtNum* q) { return Quat(q[0], q[1], q[2], q[3]).normalized().toRotationMatrix(); }
 
+double largest(const mjtNum* range) { return std::max(std::fabs(range[0]), std::fabs(range[1])); }
+
 MjcfGeom geom_of(const mjModel& m, int g) {
   constexpr MjcfGeom::Type kTypes[] = {MjcfGeom::Type::plane,   MjcfGeom::Type::heights,   MjcfGeom::Type::sphere,
                                        MjcfGeom::Type::capsule, MjcfGeom::Type::ellipsoid, MjcfGeom::Type::cylinder,
                                        MjcfGeom::Type::box,     MjcfGeom::Type::mesh};
-  MjcfGeom geom{kTypes[m.geom_type[g]],
-                {rotation(m.geom_quat + 4 * g), vec(m.geom_pos + 3 * g)},
-                vec(m.geom_size + 3 * g),
-                m.geom_contype[g],
-                m.geom_conaffinity[g]};
+  MjcfGeom geom{kTypes[m.geom_type[g]],   {rotation(m.geom_quat + 4 * g), vec(m.geom_pos + 3 * g)},
+                vec(m.geom_size + 3 * g), m.geom_contype[g],
+                m.geom_conaffinity[g],    m.names + m.name_geomadr[g]};
   if (geom.type != MjcfGeom::Type::mesh) return geom;
   const int mesh = m.geom_dataid[g];
+  geom.mesh = static_cast<std::size_t>(mesh);
   const float* const first = m.mesh_vert + 3 * m.mesh_vertadr[mesh];
   for (int v = 0; v < m.mesh_vertnum[mesh]; ++v) geom.vertices.emplace_back(first[3 * v], first[3 * v + 1], first[3 * v + 2]);
   return geom;
@@ -84,13 +86,14 @@ MjcfJoint joint_of(const mjModel& m, int j) {
                                         MjcfJoint::Type::hinge};
   const int dof = m.jnt_dofadr[j];
   const int at = m.jnt_qposadr[j];
-  return {kTypes[m.jnt_type[j]], m.names + m.name_jntadr[j], vec(m.jnt_pos + 3 * j), vec(m.jnt_axis + 3 * j),
-          m.jnt_limited[j] != 0, m.jnt_range[2 * j],         m.jnt_range[2 * j + 1], m.qpos0[at],
-          m.qpos_spring[at],     m.dof_armature[dof],        m.dof_damping[dof],     m.dof_frictionloss[dof],
-          m.jnt_stiffness[j]};
+  return {kTypes[m.jnt_type[j]],  m.names + m.name_jntadr[j],
+          vec(m.jnt_pos + 3 * j), vec(m.jnt_axis + 3 * j),
+          m.jnt_limited[j] != 0,  m.jnt_range[2 * j],
+          m.jnt_range[2 * j + 1], m.qpos0[at],
+          m.qpos_spring[at],      m.dof_armature[dof],
+          m.dof_damping[dof],     m.dof_frictionloss[dof],
+          m.jnt_stiffness[j],     m.nuser_jnt == 2 ? largest(m.jnt_user + 2 * j) : 0};
 }
-
-double largest(const mjtNum* range) { return std::max(std::fabs(range[0]), std::fabs(range[1])); }
 
 MjcfActuator actuator_of(const mjModel& m, int a) {
   const int joint = m.actuator_trnid[2 * a];
@@ -134,10 +137,11 @@ MjcfRobot model_of(const mjModel& m) {
   return made;
 }
 
-/// The first line of a message without `XML Error: `, with the name of its element; and its line, `line 7` or `line = 7`.
+/// The first line of a message without `XML Error: `, with the name of its element; and its line, `line 7`, `line = 7` or
+/// `Line number=7`.
 MjcfError error_of(const std::string& message) {
   MjcfError made;
-  for (const char* const mark : {", line ", "line = "}) {
+  for (const char* const mark : {", line ", "line = ", "Line number="}) {
     const std::size_t at = message.find(mark);
     if (at != std::string::npos && made.line == 0) made.line = std::max(0, std::atoi(message.c_str() + at + std::strlen(mark)));
   }
@@ -145,8 +149,12 @@ MjcfError error_of(const std::string& message) {
   for (const char* const head : {"XML Error: ", "Error: ", "Schema violation: "}) {
     if (made.text.starts_with(head)) made.text.erase(0, std::strlen(head));
   }
+  if (made.text.starts_with("XML parse error")) made.text = "is not well-formed XML";
   const std::size_t element = message.find("Element '");
-  if (element != std::string::npos) made.text += message.substr(element + 7, message.find('\'', element + 9) - element - 6);
+  if (element != std::string::npos) {
+    const std::size_t begin = element + std::strlen("Element '");
+    made.element = message.substr(begin, message.find('\'', begin) - begin);
+  }
   return made;
 }
 
@@ -162,6 +170,7 @@ CompiledMjcf compile_mjcf(const std::string& text, const std::string& file) {
   if (functions.make_file(vfs.get(), kName, size) != 0) return {{}, MjcfError{"the text is too long"}};
   std::memcpy(vfs->filedata[0], text.c_str(), text.size());
   char message[1000] = "";
+  warned.clear();
   mjModel* model = nullptr;
   try {
     model = functions.load(kName, vfs.get(), message, sizeof message);
@@ -171,6 +180,7 @@ CompiledMjcf compile_mjcf(const std::string& text, const std::string& file) {
   functions.delete_vfs(vfs.get());
   if (model == nullptr) return {{}, error_of(message)};
   made.model = model_of(*model);
+  made.warnings = warned;
   functions.delete_model(model);
   return made;
 }

@@ -16,6 +16,7 @@ struct MjcfJoint {
   double lo = 0, hi = 0;
   double at_start = 0, rest = 0;  ///< position of the pose as written, and that without torque of the spring
   double armature = 0, damping = 0, friction = 0, stiffness = 0;
+  double torque_limit = 0;  ///< N m, of all its actuators together; 0 if the file has none
 };
 
 struct MjcfGeom {
@@ -23,6 +24,8 @@ struct MjcfGeom {
   Pose in_body;
   Vec3 size;  ///< m, half sizes, as in MJCF
   int contype = 0, conaffinity = 0;
+  std::string name = {};
+  std::size_t mesh = 0;             ///< number of a mesh
   std::vector<Vec3> vertices = {};  ///< of a mesh, frame of the geom
 };
 
@@ -45,21 +48,23 @@ struct MjcfActuator {
 };
 
 struct MjcfRobot {
-  std::vector<MjcfBody> bodies;  ///< body 0 is the world; each is after its parent, in the order of the file
-  std::vector<MjcfActuator> actuators;
+  std::vector<MjcfBody> bodies;         ///< body 0 is the world; each is after its parent, in the order of the file
+  std::vector<MjcfActuator> actuators;  ///< of joints
   std::vector<std::pair<std::size_t, std::size_t>> excluded;  ///< pairs of bodies
 };
 
 /// An error of libmujoco.
 struct MjcfError {
   std::string text;
-  int line = 0;  ///< in the text; 0 if it has none
+  std::string element = {};  ///< name of its element
+  int line = 0;              ///< in the text; 0 if it has none
 };
 
 /// The model, or the error. libmujoco is loaded at the first call; throws InputError at `file` if it is not installed.
 struct CompiledMjcf {
   MjcfRobot model;
   std::optional<MjcfError> error;
+  std::vector<std::string> warnings = {};
 };
 CompiledMjcf compile_mjcf(const std::string& text, const std::string& file);
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <tuple>
 
 #include "core/model/pattern.h"
 #include "core/settings/joint_patterns.h"
@@ -42,7 +43,9 @@ void RobotBodies::finish() {
   const std::vector<std::string> of_hinges = allowed_names(hinge_of);
   for (std::size_t b = 0; b < bodies.size(); ++b) note(format.body, body_of[b], bodies[b].name = of_bodies[b]);
   for (std::size_t j = 0; j < hinges.size(); ++j) note("joint", hinge_of[j], hinges[j].hinge.name = of_hinges[j]);
-  std::ranges::stable_sort(notes, {}, [](const RobotNote& one) { return std::pair(one.place.line, one.place.column); });
+  std::ranges::stable_sort(notes, {}, [](const RobotNote& one) {
+    return std::tuple(one.place.line > 0, one.place.file, one.place.line, one.place.column);
+  });
 }
 
 std::set<std::string> locked_joints(const std::vector<std::string>& moving, const std::vector<std::string>& locked,

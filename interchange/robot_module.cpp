@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <tuple>
 
 #include "core/laws/data_sheet.h"
 #include "core/robot_files/module_file.h"
@@ -68,11 +69,13 @@ std::string shape_text(const Shape& shape) {
   return fmt::format("      - {{{}, {}}}\n", geometry, frame_text(tidy(shape.in_body)));
 }
 
-std::string body_text(const BodyType& body) {
+/// `shaped`: another body has a shape.
+std::string body_text(const BodyType& body, bool shaped) {
   const Mat3& I = body.inertia;
   const double moments[] = {I(0, 0), I(1, 1), I(2, 2), I(0, 1), I(0, 2), I(1, 2)};
   std::string text = fmt::format("  {}:\n    mass: {}\n", yaml_text(body.name), number_text(body.mass));
   if (body.mass > 0) text += fmt::format("    com: {}\n    inertia: {}\n", list_text(body.com), list_text(moments));
+  if (body.shapes.empty() && shaped) text += "    shape: []\n";
   if (!body.shapes.empty()) text += "    shape:\n";
   for (const Shape& shape : body.shapes) text += shape_text(shape);
   return text;
@@ -144,12 +147,14 @@ const RobotHinge* common_motor(const std::vector<RobotHinge>& hinges) {
 ModuleText module_text(const RobotBodies& parts, const std::string& name, const std::string& file) {
   const RobotHinge* const common = common_motor(parts.hinges);
   const std::string from = std::filesystem::path(file).filename().string();
+  const bool shapes = std::ranges::any_of(parts.bodies, [](const BodyType& body) { return !body.shapes.empty(); });
   std::string text = fmt::format(
       "# Module {}, written by gaitlab new module --from. Units: m, kg, N m, rad, s. Every key: gaitlab explain module\n"
       "# Add faces, where modules dock; replace the motor by that of a data sheet.\n",
       name);
   for (const RobotNote& note : parts.notes) {
-    const std::string line = note.place.line > 0 ? fmt::format(", line {}", note.place.line) : "";
+    const std::string of = note.place.file == file ? "" : " of " + std::filesystem::path(note.place.file).filename().string();
+    const std::string line = note.place.line > 0 ? fmt::format(", line {}{}", note.place.line, of) : "";
     text += one_line(fmt::format("# {}{}: {}", note.kind(), line, note.text)) + "\n";
   }
   ModuleText made{text + fmt::format("gaitlab_module: 1\nname: {}\nsource: {}\n", yaml_text(name), yaml_text(from))};
@@ -157,7 +162,7 @@ ModuleText module_text(const RobotBodies& parts, const std::string& name, const 
   made.text += "bodies:\n";
   for (std::size_t b = 0; b < parts.bodies.size(); ++b) {
     made.begin(parts.format.body, parts.body_of[b]);
-    made.text += body_text(parts.bodies[b]);
+    made.text += body_text(parts.bodies[b], shapes);
   }
   if (!parts.hinges.empty()) made.text += "hinges:\n";
   for (std::size_t j = 0; j < parts.hinges.size(); ++j) {
@@ -165,7 +170,6 @@ ModuleText module_text(const RobotBodies& parts, const std::string& name, const 
     made.text += hinge_text(parts.hinges[j], parts, common);
   }
   made.begin("robot", {});
-  const bool shapes = std::ranges::any_of(parts.bodies, [](const BodyType& body) { return !body.shapes.empty(); });
   // Without contacts `new scenario` writes a fixed base and no ground: an arm on the ground would bend on its start.
   if (shapes && parts.base == Base::fixed)
     made.text += "# The base is fixed. For an arm that may touch the ground: contacts: {all: shapes}\n";
@@ -186,7 +190,8 @@ ModuleText module_text(const RobotBodies& parts, const std::string& name, const 
 void raise_by_line(const Problems& problems) {
   if (problems.empty()) return;
   std::vector<Problem> list = problems.list();
-  std::ranges::stable_sort(list, {}, [](const Problem& one) { return std::pair(one.place.line, one.place.column); });
+  std::ranges::stable_sort(list, {},
+                           [](const Problem& one) { return std::tuple(one.place.file, one.place.line, one.place.column); });
   throw InputError(std::move(list));
 }
 

@@ -79,6 +79,20 @@ std::string overlap_text(const interchange::RobotModule& made, const std::string
   return "# Bodies that the check `collision` leaves out:\nmay_overlap:\n" + text;
 }
 
+/// A scenario on one line in which a module without motors moves by itself: with its base and contact elements, and with hinges
+/// within their ranges.
+std::string fall_text(const std::string& file) {
+  Catalog catalog = standard_catalog();
+  const Scenario one = read_module(file, catalog);
+  const ModuleType& type = one.robot->types[0];
+  const bool touches = !type.all.empty() || !type.feet.empty();
+  const std::string angles = gait_values(one, 0).angles;
+  return fmt::format("{{gaitlab: 1, robot: {{modules: {}{}}}, actuator: {{type: none}}, contact: {{on: {}}}, {}{}duration: 5}}",
+                     yaml_text(file.find('/') == std::string::npos ? "./" + file : file),
+                     type.base == Base::floating ? "" : fmt::format(", base: {}", name_of(type.base)), touches ? "all" : "none",
+                     touches ? "" : "ground: {type: none}, ", angles == "0" ? "" : "initial: {angles: " + angles + "}, ");
+}
+
 int new_module(const NewFileArguments& arguments) {
   const std::string& name = arguments.name;
   check_file_name("module", name);
@@ -106,10 +120,7 @@ int new_module(const NewFileArguments& arguments) {
     fmt::print(
         "No hinge has a motor, so that no gait moves the module. To let it fall:\n  echo {1} > {0}-fall.yaml\n  gaitlab run "
         "{0}-fall.yaml\n",
-        name,
-        shell_word(fmt::format("{{gaitlab: 1, robot: {{modules: {}}}, actuator: {{type: none}}, contact: {{on: all}}, "
-                               "duration: 5}}",
-                               yaml_text(file.find('/') == std::string::npos ? "./" + file : file))));
+        name, shell_word(fall_text(file)));
   }
   if (changes > 0) fmt::print("{}; read the head of {}\n", counted(changes, "change"), shell_word(file));
   return 0;

@@ -137,21 +137,62 @@ TEST_F(FromMjcf, WhatAModuleDoesNotNeed) {
       "0'/></equality>\n";
   const ModuleType type = read_mjcf(trunk);
   EXPECT_EQ(type.hinges.size(), 1U);
-  EXPECT_EQ(notes(), (Texts{"2 Changed: attribute actuatorgravcomp of 1 <joint>, which libmujoco 2.2.2 lacks",
-                            "5 Not carried over: 1 geom with a mesh that is only drawn", "9 Not carried over: 1 keyframe",
+  EXPECT_EQ(notes(), (Texts{"5 Not carried over: 1 geom that does not collide", "9 Not carried over: 1 keyframe",
                             "10 Changed: 1 equality constraint"}));
-  EXPECT_EQ(made_.notes[0].place.file, folder_ / "leg.xml");
+}
+
+/// Forces of several motors add up; one without a limit has none. Defaults of two sections apply, those of a class before them.
+TEST_F(FromMjcf, SeveralMotorsAndSections) {
+  const std::string legs = body("a", "<joint name='a' axis='0 1 0'/>") +
+                           body("b", "<joint name='b' axis='0 1 0' class='weak'/>") +
+                           body("c", "<joint name='c' axis='0 1 0'/>");
+  read_mjcf(
+      "<default><joint actuatorfrcrange='-9 9'/></default>\n<default><joint damping='0.5'/>"
+      "<default class='weak'><joint actuatorfrcrange='-5 5'/></default></default>\n" +
+      world(body("trunk", "<freejoint/>" + legs)) +
+      "<actuator><motor joint='a' ctrllimited='true' ctrlrange='-3 3'/><motor joint='a' ctrllimited='true' ctrlrange='-4 4'/>"
+      "<motor joint='b'/><motor joint='c' ctrllimited='true' ctrlrange='-3 3'/><velocity joint='c'/></actuator>");
+  for (const char* const torque : {"stall_torque: 7,", "stall_torque: 5,", "stall_torque: 9,"})
+    EXPECT_TRUE(contains(made_.text, torque)) << torque << "\n" << made_.text;
+  EXPECT_TRUE(contains(made_.text, "viscous_friction: 0.5")) << made_.text;
+}
+
+/// A note lists properties of the joints of a root that moves freely. Joints without a name are locked by the name in the
+/// message.
+TEST_F(FromMjcf, RootsAndNames) {
+  const std::string arm = body("arm", "\n<joint axis='0 1 0'/>");
+  read_mjcf(world(body("trunk", "\n<joint type='free' damping='5' armature='1'/>" + arm)));
+  EXPECT_EQ(notes(), Texts{"4 Changed: damping, armature of the joints of the root 'trunk', which moves freely"});
+  EXPECT_EQ(refused(world(body("trunk", "<freejoint/>" + body("cart", "\n<joint type='slide'/>" + arm)))),
+            "r:4:1: error: joint 'cart_joint' is a slide; a module has hinges; it is fixed by --lock cart_joint");
+  options_.locked = {"cart_joint"};
+  EXPECT_EQ(read_mjcf(world(body("trunk", "<freejoint/>" + body("cart", "\n<joint type='slide'/>" + arm)))).hinges.size(), 1U);
+}
+
+/// Geoms of contact pairs collide. A NaN of which libmujoco only warns is refused.
+TEST_F(FromMjcf, PairsAndNan) {
+  read_mjcf(world("<geom name='floor' type='plane' size='1 1 1'/>" +
+                  body("trunk", "<freejoint/><geom name='foot' type='sphere' size='0.1' contype='0' conaffinity='0'/>")) +
+            "<contact><pair geom1='foot' geom2='floor'/></contact>");
+  EXPECT_TRUE(contains(made_.text, "sphere: 0.1")) << made_.text;
+  EXPECT_EQ(refused(world(body("trunk", "<freejoint/><geom type='sphere' size='0.1' pos='nan 0 0'/>"))),
+            "r: error: has a NaN; expected finite numbers");
 }
 
 TEST_F(FromMjcf, RefusesWithAPlace) {
   const auto robot = [](const std::string& inner) { return world(body("trunk", "<freejoint/>" + inner)); };
   EXPECT_EQ(refused(robot("\n<replicate count='2'/>")),
-            "r:4:1: error: <replicate> is unknown to libmujoco 2.2.2, which reads MJCF; write out what it stands for");
-  EXPECT_EQ(refused(robot("\n<geom size='a'/>")), "r:4:1: error: libmujoco: problem reading attribute 'size' 'geom'");
+            "r:4:1: error: <replicate> is not an element that libmujoco 2.2.2, which reads MJCF, knows at this place");
+  EXPECT_EQ(refused(robot("\n<geom size='a'/>")), "r:4:1: error: libmujoco: problem reading attribute 'size' of <geom>");
   EXPECT_EQ(refused(robot(body("a", "<joint name='hip' type='ball'/>"))),
             "r:3:163: error: joint 'hip' is a ball; a module has hinges; it is fixed by --lock hip");
   EXPECT_EQ(refused(robot("") + "<actuator>\n<motor name='biceps' tendon='t'/></actuator>\n"),
             "r:6:1: error: actuator 'biceps' acts on a tendon; expected a joint");
+  EXPECT_EQ(refused(robot("\n<joint axs='0 0 1'/>")),
+            "r:4:1: error: 'axs' of <joint> is unknown to libmujoco 2.2.2, which reads MJCF");
+  EXPECT_EQ(refused(robot("\n<composite type='grid'/>")),
+            "r:4:1: error: <composite> stands for bodies that the file does not list; write them out");
+  EXPECT_EQ(refused("<worldbody>\n<body>\n"), "r:3:1: error: is not well-formed XML");
   EXPECT_EQ(refused(robot("<include file='none.xml'/>")), "r:3:90: error: includes 'none.xml', which is not beside r");
   EXPECT_EQ(refused(robot("<include file='r.xml'/>")), "r:3:90: error: includes 'r.xml' again; expected each file once");
   EXPECT_EQ(refused(world("")), "r: error: has no body; expected a robot in <worldbody>");
