@@ -15,12 +15,13 @@ namespace fs = std::filesystem;
 /// Folder in the data, and ending of its files, for each kind.
 struct ShippedKind {
   const char* kind;
-  std::array<const char*, 2> folders;
+  std::array<const char*, 3> folders;
   const char* ending;
 };
-constexpr ShippedKind kShipped[] = {{"module", {"modules", nullptr}, ".yaml"}, {"robot", {"robots", nullptr}, ".dat"},
-                                    {"servo", {"servos", nullptr}, ".yaml"},   {"scenario", {".", "library"}, ".yaml"},
-                                    {"study", {"studies", nullptr}, ".yaml"},  {"recipe", {"figures", nullptr}, ".yaml"}};
+constexpr ShippedKind kShipped[] = {
+    {"module", {"modules", nullptr}, ".yaml"}, {"robot", {"robots", nullptr}, ".dat"},
+    {"servo", {"servos", nullptr}, ".yaml"},   {"scenario", {".", "library", "imported"}, ".yaml"},
+    {"study", {"studies", nullptr}, ".yaml"},  {"recipe", {"figures", nullptr}, ".yaml"}};
 
 }  // namespace
 

@@ -1,6 +1,8 @@
 // `gaitlab new module` and `new scenario` write files that are valid and run as they stand.
 #include <cstdlib>
+#include <regex>
 #include <sstream>
+#include <tuple>
 
 #include "app/new/chain.h"
 #include "core/laws/data_sheet.h"
@@ -189,6 +191,22 @@ TEST_F(NewFiles, AQuadrupedWalks) {
                        "stance and initial.angles are both given"));
 }
 
+/// The robots that come with the program are as these commands write them, except for names and the first line.
+TEST_F(NewFiles, ShippedImportsAreAsWritten) {
+  for (const auto& [name, file, scenario] :
+       {std::tuple{"dog12", "dog.urdf", "dog-trot"}, {"beetle18", "beetle.xml", "beetle-tripod"}}) {
+    ASSERT_EQ(
+        call("module my_robot --out my_robot_" + std::string(name) + ".yaml --from " + kScenarios + "robots/" + file).code, 0);
+    const std::string made =
+        std::regex_replace(read(folder / ("my_robot_" + std::string(name) + ".yaml")), std::regex("my_robot"), name);
+    EXPECT_EQ(made, read(kScenarios + "modules/" + name + ".yaml"));
+    ASSERT_EQ(call("scenario " + std::string(scenario) + " --module " + name).code, 0);
+    const auto after_head = [](const std::string& text) { return text.substr(text.find('\n')); };
+    EXPECT_EQ(after_head(read(folder / (std::string(scenario) + ".yaml"))),
+              after_head(read(kScenarios + "imported/" + scenario + ".yaml")));
+  }
+}
+
 /// Without --from, --lock has no joints; a pattern that matches none, and what is refused, leave no file.
 TEST_F(NewFiles, LockNeedsJoints) {
   const std::string file = std::string(source_folder()) + "/tests/data/imports/prismatic_fingers.urdf";
@@ -223,7 +241,7 @@ TEST_F(NewFiles, EveryModuleWithAMotorGetsAFeasibleGait) {
       continue;
     }
     ASSERT_EQ(made.code, 0) << name << made.err;
-    EXPECT_EQ(gaitlab("check s.yaml", folder / "").err, "") << name;
+    EXPECT_FALSE(contains(gaitlab("check s.yaml", folder / "").err, ": warning: ")) << name;
     EXPECT_EQ(made.err, "") << name;
     EXPECT_EQ(verdict("s.yaml"), "feasible") << name;
     std::filesystem::remove(folder / "s.yaml");
