@@ -16,7 +16,7 @@ struct MjcfJoint {
   double lo = 0, hi = 0;
   double at_start = 0, rest = 0;  ///< position of the pose as written, and that without torque of the spring
   double armature = 0, damping = 0, friction = 0, stiffness = 0;
-  double torque_limit = 0;  ///< N m, of all its actuators together; 0 if the file has none
+  double torque_limit = 0;  ///< N m, of the sum of its actuators; 0 if the file states no limit
 };
 
 struct MjcfGeom {

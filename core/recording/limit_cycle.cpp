@@ -191,7 +191,8 @@ double refine(const Columns& columns, std::size_t lag, std::size_t step) {
   return static_cast<double>(lag) + std::clamp(shift, -0.5, 0.5);
 }
 
-// Value of x between samples, from a cubic through four neighbours. The last sample is repeated at the end of the data.
+// Value of x between samples, from a cubic through four neighbours. The last sample takes the
+// place of a neighbour behind it.
 class Between {
  public:
   explicit Between(double lag) : whole_(static_cast<std::size_t>(lag)) {

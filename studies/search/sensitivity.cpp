@@ -32,7 +32,8 @@ Blocks whole_blocks(std::span<const double> values, std::size_t size) {
   return whole;
 }
 
-/// Function that estimates all measures from a resample: measure by measure, with one number per parameter.
+/// Function that estimates all measures from a resample. Its result has a number for each parameter of the first measure, then
+/// for each parameter of the second, and so on.
 using Estimator = std::function<std::vector<double>(const Blocks&)>;
 
 void estimate(Sensitivity& found, const Blocks& used, const Estimator& estimator, std::size_t parameters) {
