@@ -44,9 +44,10 @@ MjcfRobot compiled(MjcfText& text, const std::set<std::size_t>& meshes, std::vec
                                    "this place",
                                    error.element));
     }
-    if (unknown)
+    if (unknown) {
       throw InputError(text.place(error.line),
                        fmt::format("{}{} is unknown to libmujoco 2.2.2, which reads MJCF", in_quotes(name), of));
+    }
     throw InputError(text.place(error.line),
                      fmt::format("{}{}{}", error.text.starts_with("is not") ? "" : "libmujoco: ", error.text, of));
   }
@@ -238,9 +239,10 @@ class MjcfWalk {
     add(some([](const MjcfJoint& one) { return one.stiffness > 0; }), "springs");
     add(some([](const MjcfJoint& one) { return one.limited; }), "range");
     add(std::ranges::any_of(model_.actuators, [&](const MjcfActuator& one) { return one.body == root_; }), "actuators");
-    if (!lost.empty())
+    if (!lost.empty()) {
       changed(text_.joint(root_, 0),
               fmt::format("{} of the joints of the root {}, which moves freely", lost, in_quotes(name_of_body(root_))));
+    }
   }
 
   /// Numbers of a body's hinges that are not locked. Adds a problem for joints of another type.
@@ -439,17 +441,19 @@ class MjcfWalk {
   }
 
   void note_all() {
-    if (std::ranges::any_of(made_.hinges, [](const RobotHinge& one) { return !one.hinge.passive; }))
+    if (std::ranges::any_of(made_.hinges, [](const RobotHinge& one) { return !one.hinge.passive; })) {
       changed({text_.file()},
               fmt::format("the largest force and a chosen {} rad/s become the ends of a motor's line", kChosenSpeed));
-    if (positions_ > 0)
+    }
+    if (positions_ > 0) {
       left_out({text_.file()}, fmt::format("gains of {} that follow angles or speeds: the module has a gain of its own",
                                            counted(positions_, "actuator")));
+    }
     note_joints(passive_armature_, "the armature", ", because it has no motor");
     note_joints(driven_springs_, "the spring", " beside its motor");
-    if (!drawn_.empty())
-      left_out(text_.body(drawn_.front()),
-               counted(drawn_.size(), "geom") + (drawn_.size() == 1 ? " that does not collide" : " that do not collide"));
+    if (drawn_.empty()) return;
+    left_out(text_.body(drawn_.front()),
+             counted(drawn_.size(), "geom") + (drawn_.size() == 1 ? " that does not collide" : " that do not collide"));
   }
 
   struct Mask {

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdlib>
 #include <cstring>
 #include <memory>
@@ -66,7 +67,7 @@ Mat3 rotation(const mjtNum* q) { return Quat(q[0], q[1], q[2], q[3]).normalized(
 
 double largest(const mjtNum* range) { return std::max(std::fabs(range[0]), std::fabs(range[1])); }
 
-MjcfGeom geom_of(const mjModel& m, int g) {
+MjcfGeom geom_of(const mjModel& m, std::ptrdiff_t g) {
   constexpr MjcfGeom::Type kTypes[] = {MjcfGeom::Type::plane,   MjcfGeom::Type::heights,   MjcfGeom::Type::sphere,
                                        MjcfGeom::Type::capsule, MjcfGeom::Type::ellipsoid, MjcfGeom::Type::cylinder,
                                        MjcfGeom::Type::box,     MjcfGeom::Type::mesh};
@@ -76,12 +77,14 @@ MjcfGeom geom_of(const mjModel& m, int g) {
   if (geom.type != MjcfGeom::Type::mesh) return geom;
   const int mesh = m.geom_dataid[g];
   geom.mesh = static_cast<std::size_t>(mesh);
-  const float* const first = m.mesh_vert + 3 * m.mesh_vertadr[mesh];
-  for (int v = 0; v < m.mesh_vertnum[mesh]; ++v) geom.vertices.emplace_back(first[3 * v], first[3 * v + 1], first[3 * v + 2]);
+  const std::ptrdiff_t begin = m.mesh_vertadr[mesh];
+  const float* const first = m.mesh_vert + 3 * begin;
+  for (std::ptrdiff_t v = 0; v < m.mesh_vertnum[mesh]; ++v)
+    geom.vertices.emplace_back(first[3 * v], first[3 * v + 1], first[3 * v + 2]);
   return geom;
 }
 
-MjcfJoint joint_of(const mjModel& m, int j) {
+MjcfJoint joint_of(const mjModel& m, std::ptrdiff_t j) {
   constexpr MjcfJoint::Type kTypes[] = {MjcfJoint::Type::free, MjcfJoint::Type::ball, MjcfJoint::Type::slide,
                                         MjcfJoint::Type::hinge};
   const int dof = m.jnt_dofadr[j];
@@ -95,7 +98,7 @@ MjcfJoint joint_of(const mjModel& m, int j) {
           m.jnt_stiffness[j],     m.nuser_jnt == 2 ? largest(m.jnt_user + 2 * j) : 0};
 }
 
-MjcfActuator actuator_of(const mjModel& m, int a) {
+MjcfActuator actuator_of(const mjModel& m, std::ptrdiff_t a) {
   const int joint = m.actuator_trnid[2 * a];
   const int body = m.jnt_bodyid[joint];
   MjcfActuator made{static_cast<std::size_t>(body),
@@ -114,7 +117,7 @@ MjcfActuator actuator_of(const mjModel& m, int a) {
 
 MjcfRobot model_of(const mjModel& m) {
   MjcfRobot made;
-  for (int b = 0; b < m.nbody; ++b) {
+  for (std::ptrdiff_t b = 0; b < m.nbody; ++b) {
     const Mat3 axes = rotation(m.body_iquat + 4 * b);
     MjcfBody body{m.names + m.name_bodyadr[b],
                   static_cast<std::size_t>(m.body_parentid[b]),
@@ -126,7 +129,7 @@ MjcfRobot model_of(const mjModel& m) {
     for (int g = 0; g < m.body_geomnum[b]; ++g) body.geoms.push_back(geom_of(m, m.body_geomadr[b] + g));
     made.bodies.push_back(std::move(body));
   }
-  for (int a = 0; a < m.nu; ++a) {
+  for (std::ptrdiff_t a = 0; a < m.nu; ++a) {
     if (m.actuator_trntype[a] == mjTRN_JOINT || m.actuator_trntype[a] == mjTRN_JOINTINPARENT)
       made.actuators.push_back(actuator_of(m, a));
   }

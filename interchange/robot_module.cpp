@@ -108,9 +108,10 @@ std::string hinge_text(const RobotHinge& one, const RobotBodies& parts, const Ro
   if (hinge.passive) {
     text += fmt::format("    drive: none\n    damping: {}\n    friction: {}\n", number_text(hinge.passive->damping),
                         number_text(hinge.passive->friction));
-    if (hinge.passive->stiffness > 0)
+    if (hinge.passive->stiffness > 0) {
       text += fmt::format("    stiffness: {}\n    rest: {}\n", number_text(hinge.passive->stiffness),
                           number_text(hinge.passive->rest));
+    }
   } else if (sourced_motor_text(one) != sourced_motor_text(*common)) {
     text += fmt::format("    actuator: {{{}}}\n    controller: {{{}}}\n", sourced_motor_text(one), gain_text(one));
   }
