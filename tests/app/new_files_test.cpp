@@ -118,8 +118,8 @@ TEST_F(NewFiles, ImportedRobotsRun) {
        ""},
       {"continuous_joint_without_limit",
        {": note: Changed: effort and velocity become the ends of a motor's line",
-        ":2:3: note: Changed: link 'world' is the ground: the module has no contacts, so that new scenario writes base: fixed "
-        "and no ground",
+        (":2:3: note: Changed: link 'world' is the ground: the module has no contacts, so that new scenario writes base: fixed "
+         "and no ground"),
         ":4:3: note: Changed: link 'link1' has no collision; its visual shapes are its contact",
         // 2 m g L = 2 1 kg 9.81 m/s^2 0.45 m
         ":5:3: note: Changed: joint 'joint1' has no limit of a motor; 8.83 N m at rest and 20 rad/s without load are chosen",

@@ -2,6 +2,7 @@
 #include <mujoco/mujoco.h>
 
 #include <array>
+#include <cstddef>
 #include <memory>
 
 #include "core/model/possible_inertia.h"
@@ -35,7 +36,7 @@ TEST_F(MujocoImport, MassesAndInertias) {
   for (const BodyType& body : type.bodies) mass += body.mass;
   EXPECT_NEAR(mass, model_->body_subtreemass[0], 1e-9 * mass);
   for (const char* const name : {"trunk", "left", "tail"}) {  // bodies of one body of the file
-    const int b = mj_name2id(model_.get(), mjOBJ_BODY, name);
+    const std::ptrdiff_t b = mj_name2id(model_.get(), mjOBJ_BODY, name);
     const BodyType& body = body_of(type, name);
     EXPECT_NEAR(body.mass, model_->body_mass[b], 1e-12);
     const Vec3 moments(model_->body_inertia + 3 * b);
