@@ -183,8 +183,8 @@ TEST_F(NewFiles, AQuadrupedWalks) {
   EXPECT_EQ(same.initial.angles, scenario.initial.angles);
   EXPECT_EQ(plugin_info(same).legs[0].foot, robot.legs[0].foot);
   const Scenario lower = read_scenario(folder / "again.yaml", {"cpg.model.stance=0.6"}, catalog());
-  EXPECT_LT(lower.initial.angles[robot.legs[0].joints.back()], scenario.initial.angles[robot.legs[0].joints.back()] - 0.1)
-      << "the knee bends more";
+  const auto knee = static_cast<std::size_t>(robot.legs[0].joints.back());
+  EXPECT_LT(lower.initial.angles[knee], scenario.initial.angles[knee] - 0.1) << "the knee bends more";
   EXPECT_TRUE(contains(message_of([&] {
                          read_scenario(folder / "again.yaml", {"cpg.model.stance=0.6", "initial.angles=0"}, catalog());
                        }),
