@@ -90,6 +90,9 @@ void Snake::output(double t, In, Out setpoint) const {
   }
 }
 
-std::string Snake::note() const { return std::to_string(pitches_) + " pitch and " + std::to_string(yaws_) + " yaw joints"; }
+std::string Snake::note() const {
+  return std::to_string(pitches_) + " pitch and " + std::to_string(yaws_) + " yaw joints" +
+         (branches_ ? "; the robot branches: in each branch the waves begin at the base" : "");
+}
 
 }  // namespace gaitlab::cpg

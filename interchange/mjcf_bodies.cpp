@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -146,8 +145,9 @@ class MjcfWalk {
     for (std::size_t b = 1; b < model_.bodies.size(); ++b) {
       const MjcfBody& body = model_.bodies[b];
       top[b] = body.parent == 0 ? b : top[body.parent];
-      hinges[top[b]] += static_cast<std::size_t>(std::ranges::count_if(
-          body.joints, [&](const MjcfJoint& joint) { return joint.type == Type::hinge && !locked.contains(joint.name); }));
+      std::size_t& count = hinges[top[b]];
+      for (std::size_t k = 0; k < body.joints.size(); ++k)
+        count += body.joints[k].type == Type::hinge && !locked.contains(name_of_joint(b, k)) ? 1 : 0;
     }
     for (const auto& [b, count] : hinges) root_ = root_ == 0 || count > hinges[root_] ? b : root_;
     if (root_ == 0) problems_.add({text_.file()}, "has no body; expected a robot in <worldbody>");

@@ -169,6 +169,15 @@ TEST_F(FromMjcf, RootsAndNames) {
   EXPECT_EQ(read_mjcf(world(body("trunk", "<freejoint/>" + body("cart", "\n<joint type='slide'/>" + arm)))).hinges.size(), 1U);
 }
 
+/// The robot is the tree with the most hinges that are not locked, by the names of joints in the messages.
+TEST_F(FromMjcf, TheTreeWithTheMostHinges) {
+  const std::string two = body("a", "<joint axis='0 1 0'/>" + body("b", "<joint axis='0 1 0'/>"));
+  const std::string one = body("c", "<joint name='turn' axis='0 1 0'/>");
+  EXPECT_EQ(read_mjcf(world(two + one)).hinges.size(), 2U);
+  options_.locked = {"a_joint", "b_joint"};
+  EXPECT_EQ(read_mjcf(world(two + one)).hinges.at(0).name, "turn");
+}
+
 /// Geoms of contact pairs collide. A NaN of which libmujoco only warns is refused.
 TEST_F(FromMjcf, PairsAndNan) {
   read_mjcf(world("<geom name='floor' type='plane' size='1 1 1'/>" +

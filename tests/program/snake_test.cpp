@@ -72,6 +72,8 @@ TEST(Snake, KindsAndSignsOfJoints) {
   EXPECT_NEAR(q[0], 0.6 * std::sin(cycle), 1e-12);
   EXPECT_NEAR(q[2], -0.6 * std::sin(cycle + 2.0943951), 1e-12) << "an axis about -y";
   EXPECT_EQ(snake.note(), "2 pitch and 2 yaw joints");
+  robot.joints.push_back(robot.joints.back());  // a second joint on the same parent
+  EXPECT_EQ(Snake(robot, s).note(), "2 pitch and 2 yaw joints; the robot branches: in each branch the waves begin at the base");
 }
 
 TEST(Snake, RefusesWavesWithoutJoints) {
