@@ -10,7 +10,8 @@
 
 #include "core/settings/shell_word.h"
 #include "core/settings/wording.h"
-#include "interchange/mjcf_model.h"
+#include "interchange/mjcf_compiled.h"
+#include "interchange/mjcf_pairs.h"
 #include "interchange/robot_mass.h"
 #include "interchange/robot_shapes.h"
 
@@ -23,69 +24,6 @@ using Type = MjcfJoint::Type;
 constexpr double kHeaviest = 1e9;   // kg
 constexpr double kLongest = 1e6;    // m
 constexpr double kParallel = 1e-6;  // between the axes of a planar base and those of the world
-
-/// Compiles the text with some of its meshes. Attributes that libmujoco lacks are dropped one after the other, as its messages
-/// name them.
-MjcfRobot compiled(MjcfText& text, const std::set<std::size_t>& meshes, std::vector<std::string>& warnings) {
-  for (;;) {
-    CompiledMjcf made = compile_mjcf(text.text(meshes), text.file());
-    warnings = made.warnings;
-    if (!made.error) return std::move(made.model);
-    const MjcfError& error = *made.error;
-    const std::size_t quote = error.text.find('\'');
-    const std::string name = quote == std::string::npos ? "" : error.text.substr(quote + 1, error.text.rfind('\'') - quote - 1);
-    const bool unknown = error.text.starts_with("unrecognized ");
-    if (unknown && text.drop_attribute(error.element, name)) continue;
-    const std::string of = error.element.empty() ? "" : fmt::format(" of <{}>", error.element);
-    if (error.text.starts_with("unrecognized element")) {
-      throw InputError(text.place(error.line),
-                       fmt::format("<{}> is not an element that libmujoco 2.2.2, which reads MJCF, knows at "
-                                   "this place",
-                                   error.element));
-    }
-    if (unknown) {
-      throw InputError(text.place(error.line),
-                       fmt::format("{}{} is unknown to libmujoco 2.2.2, which reads MJCF", in_quotes(name), of));
-    }
-    throw InputError(text.place(error.line),
-                     fmt::format("{}{}{}", error.text.starts_with("is not") ? "" : "libmujoco: ", error.text, of));
-  }
-}
-
-/// Compiles the text, with the mesh files of the geoms that collide or give a body its inertia. Throws InputError for a NaN.
-MjcfRobot compiled(MjcfText& text, std::vector<RobotNote>& notes) {
-  std::vector<std::string> warnings;
-  const MjcfRobot drawn = compiled(text, {}, warnings);
-  if (drawn.bodies.size() != text.bodies() + 1)
-    throw InputError(SourceLocation{text.file()}, "has elements that stand for several bodies; write them out");
-  std::set<std::size_t> needed;
-  for (std::size_t b = 1; b < drawn.bodies.size(); ++b) {
-    for (const MjcfGeom& geom : drawn.bodies[b].geoms) {
-      const bool collides = geom.contype != 0 || geom.conaffinity != 0 || text.paired().contains(geom.name);
-      if (geom.type == MjcfGeom::Type::mesh && (collides || !text.states_inertia(b))) needed.insert(geom.mesh);
-    }
-  }
-  MjcfRobot made = compiled(text, needed, warnings);
-  for (const std::string& one : warnings) {
-    if (one.find("NaN") != std::string::npos)
-      throw InputError(SourceLocation{text.file()}, "has a NaN; expected finite numbers");
-    notes.push_back({{text.file()}, "libmujoco: " + one.substr(0, one.find('\n')), true});
-  }
-  return made;
-}
-
-/// Points of an ellipsoid: a subdivided octahedron on the unit sphere, stretched.
-std::vector<Vec3> ellipsoid(const Vec3& radii) {
-  constexpr int kParts = 12;  // of an edge
-  std::vector<Vec3> points;
-  for (int x = -kParts; x <= kParts; ++x) {
-    for (int y = std::abs(x) - kParts; y <= kParts - std::abs(x); ++y) {
-      const int z = kParts - std::abs(x) - std::abs(y);
-      for (const int side : {z, -z}) points.push_back(Vec3(x, y, side).normalized().cwiseProduct(radii));
-    }
-  }
-  return points;
-}
 
 class MjcfWalk {
  public:
@@ -156,7 +94,7 @@ class MjcfWalk {
       const bool moves = count > 0 || !model_.bodies[b].joints.empty();
       made_.notes.push_back({text_.body(b),
                              fmt::format("body {}{}", in_quotes(name_of_body(b)),
-                                         moves ? " and what it carries are left out; the robot is the tree with the most hinges"
+                                         moves ? " and its children are left out; the robot is the tree with the most hinges"
                                                : ", which does not move"),
                              moves});
     }
@@ -166,7 +104,6 @@ class MjcfWalk {
     made_.bodies.push_back({name});
     made_.body_of.push_back({name, place});
     masses_.emplace_back();
-    masks_.emplace_back();
     return made_.bodies.size() - 1;
   }
 
@@ -225,7 +162,7 @@ class MjcfWalk {
     return moving_hinges(root_, locked);
   }
 
-  /// Adds notes on what a base that moves freely does not have: friction, springs, ranges and actuators.
+  /// Adds a note on properties of the root's joints that a floating or planar base lacks.
   void note_free_root() {
     const MjcfBody& root = model_.bodies[root_];
     std::string lost;
@@ -338,7 +275,7 @@ class MjcfWalk {
     std::vector<Shape>& shapes = made_.bodies[at.body].shapes;
     const Pose pose = at.pose * geom.in_body;
     const RobotElement of{name_of_body(b), text_.body(b)};
-    masks_[at.body].push_back({geom.contype, geom.conaffinity});
+    pairs_.add(at.body, GeomMask{geom.contype, geom.conaffinity});
     switch (geom.type) {
       case MjcfGeom::Type::sphere:
         shapes.push_back({Shape::Kind::sphere, pose, {geom.size.x(), 0, 0}});
@@ -352,7 +289,7 @@ class MjcfWalk {
         break;
       case MjcfGeom::Type::ellipsoid:
         ellipsoids_.add(of, fmt::format("body {} has an ellipsoid", in_quotes(of.name)), pose,
-                        hull_of_few(ellipsoid(geom.size)), shapes, made_.notes);
+                        hull_of_few(ellipsoid_points(geom.size)), shapes, made_.notes);
         break;
       case MjcfGeom::Type::mesh:
         meshes_.add(of, fmt::format("body {} has a mesh", in_quotes(of.name)), pose, hull_of_few(geom.vertices), shapes,
@@ -379,11 +316,9 @@ class MjcfWalk {
     choose_torques();
     meshes_.add_note("body", made_.notes);
     ellipsoids_.add_note("body", made_.notes);
-    exclude();
     note_all();
     made_.finish();
-    // Names are final now.
-    for (const auto& [a, b] : pairs_) made_.may_overlap.push_back({made_.bodies[a].name, made_.bodies[b].name});
+    exclude();
   }
 
   void choose_torques() {
@@ -400,36 +335,13 @@ class MjcfWalk {
     }
   }
 
-  /// Pairs of bodies that the file excludes, or whose geoms never collide.
+  /// Fills may_overlap; names of bodies must be final.
   void exclude() {
-    std::set<std::pair<std::size_t, std::size_t>> pairs;
     for (const auto& [a, b] : model_.excluded) {
-      if (!of_[a] || !of_[b] || of_[a]->body == of_[b]->body) continue;
-      pairs.insert(std::minmax(of_[a]->body, of_[b]->body));
+      if (of_[a] && of_[b]) pairs_.add(of_[a]->body, of_[b]->body);
     }
-    std::size_t comparable = 0;
-    std::size_t silent = 0;
-    std::set<std::pair<std::size_t, std::size_t>> masked;
-    for (std::size_t a = 0; a < masks_.size(); ++a) {
-      for (std::size_t b = a + 1; b < masks_.size(); ++b) {
-        if (masks_[a].empty() || masks_[b].empty()) continue;
-        ++comparable;
-        const bool meet = std::ranges::any_of(masks_[a], [&](const Mask& one) {
-          return std::ranges::any_of(masks_[b], [&](const Mask& other) {
-            return (one.contype & other.conaffinity) != 0 || (other.contype & one.conaffinity) != 0;
-          });
-        });
-        if (meet) continue;
-        ++silent;
-        masked.insert({a, b});
-      }
-    }
-    if (comparable > 0 && silent == comparable) {
-      made_.may_overlap.push_back({"*", "*"});
-      return;
-    }
-    pairs.merge(masked);
-    pairs_.assign(pairs.begin(), pairs.end());
+    for (const auto& [a, b] : pairs_.silent()) made_.may_overlap.push_back({made_.bodies[a].name, made_.bodies[b].name});
+    if (pairs_.all_silent()) made_.may_overlap = {{"*", "*"}};
   }
 
   /// Adds a note on a property of joints that is left out, at the first of them.
@@ -456,10 +368,6 @@ class MjcfWalk {
              counted(drawn_.size(), "geom") + (drawn_.size() == 1 ? " that does not collide" : " that do not collide"));
   }
 
-  struct Mask {
-    int contype, conaffinity;
-  };
-
   MjcfText& text_;
   const ImportOptions& options_;
   Problems& problems_;
@@ -468,12 +376,11 @@ class MjcfWalk {
   std::size_t root_ = 0;
   std::vector<std::optional<Placed>> of_;  ///< by body
   std::vector<std::vector<RobotMass>> masses_;
-  std::vector<std::vector<Mask>> masks_;  ///< of the shapes of each body of the module
   RobotHulls meshes_{"mesh", "meshes"}, ellipsoids_{"ellipsoid", "ellipsoids"};
   std::size_t positions_ = 0;  ///< actuators with a gain
   std::vector<JointAt> passive_armature_, driven_springs_, refused_;
-  std::vector<std::size_t> drawn_;                          ///< bodies of geoms that do not collide
-  std::vector<std::pair<std::size_t, std::size_t>> pairs_;  ///< that may overlap
+  std::vector<std::size_t> drawn_;  ///< bodies of geoms that do not collide
+  SilentPairs pairs_;
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// In the place of mjcf_model.cpp in a build without the headers of MuJoCo.
+// Stand-in for mjcf_model.cpp in a build without the headers of MuJoCo.
 #include "core/errors.h"
 #include "interchange/mjcf_model.h"
 

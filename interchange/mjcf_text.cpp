@@ -27,7 +27,7 @@ constexpr std::string_view kUnused[] = {"sensor", "visual", "statistic", "size",
 constexpr std::string_view kUnusedElements[] = {"material", "texture", "skin", "hfield", "camera", "light", "site", "pair"};
 constexpr std::string_view kUnusedAttributes[] = {"material", "texture", "user",       "rgba",
                                                   "assetdir", "meshdir", "texturedir", "discardvisual"};
-/// Attributes that MuJoCo 2.2.2 lacks, without effect on what a module takes.
+/// Attributes of MuJoCo 3 that 2.2.2 lacks, without effect on a module.
 constexpr std::string_view kNewAttributes[] = {"actuatorfrclimited", "actuatorgravcomp", "kv",          "dampratio",
                                                "inheritrange",       "timeconst",        "maxhullvert", "content_type",
                                                "ellipsoidinertia",   "alignfree",        "saveinertial"};
@@ -65,7 +65,7 @@ void MjcfText::find_bodies() {
     if (tag.name == "pair" && section == "contact") paired_.insert({value_of(tag, "geom1"), value_of(tag, "geom2")});
     if (section != "worldbody") continue;
     if (tag.name == "composite")
-      throw InputError(place_of(tag.begin), "<composite> stands for bodies that the file does not list; write them out");
+      throw InputError(place_of(tag.begin), "<composite> makes bodies that the file does not list; write them out");
     const std::size_t in = body_of[tag.parent];
     if (tag.name == "body") {
       elements_.push_back({t});

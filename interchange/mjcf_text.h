@@ -1,4 +1,4 @@
-// Text of an MJCF file with its includes, reduced to what a module takes from it.
+// Text of an MJCF file with its includes, reduced to the parts that a module needs.
 #pragma once
 #include <set>
 #include <string>
@@ -43,7 +43,7 @@ class MjcfText {
   [[nodiscard]] const std::vector<RobotNote>& notes() const { return notes_; }
 
  private:
-  /// Part of the text that stands as it is in a file.
+  /// Part of the text, equal to that of a file.
   struct Piece {
     std::size_t offset;  ///< of its first character in the text
     SourceLocation first;
@@ -64,7 +64,7 @@ class MjcfText {
   void reduce();
 
   std::string file_, meshes_;
-  std::string text_;  ///< with blanks in the place of what is left out
+  std::string text_;  ///< with blanks in the place of parts that are left out
   std::vector<Piece> pieces_;
   std::set<std::string> included_;
   std::vector<XmlTag> tags_;             ///< of the text before parts became blanks

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cstdlib>
 #include <optional>
 #include <utility>
 
@@ -16,6 +17,18 @@ void add_cylinder_along_z(const Pose& pose, double radius, double length, bool c
     if (capsule) shapes.push_back({Shape::Kind::sphere, {pose.R, pose * Vec3(0, 0, side * length)}, {radius, 0, 0}});
   }
   shapes.push_back({Shape::Kind::cylinder, {pose.R * y_from_z().transpose(), pose.p}, {radius, length, 0}});
+}
+
+std::vector<Vec3> ellipsoid_points(const Vec3& radii) {
+  constexpr int kParts = 12;  // of an edge
+  std::vector<Vec3> points;
+  for (int x = -kParts; x <= kParts; ++x) {
+    for (int y = std::abs(x) - kParts; y <= kParts - std::abs(x); ++y) {
+      const int z = kParts - std::abs(x) - std::abs(y);
+      for (const int side : {z, -z}) points.push_back(Vec3(x, y, side).normalized().cwiseProduct(radii));
+    }
+  }
+  return points;
 }
 
 void RobotHulls::add(const RobotElement& of, const std::string& what, const Pose& pose, const MeshHull& hull,

@@ -12,6 +12,9 @@ namespace gaitlab::interchange {
 /// Adds a cylinder whose axis is z of `pose`, with a sphere at each end if it is a capsule.
 void add_cylinder_along_z(const Pose& pose, double radius, double length, bool capsule, std::vector<Shape>& shapes);
 
+/// Points of an ellipsoid: a subdivided octahedron on the unit sphere, stretched by the radii, m.
+std::vector<Vec3> ellipsoid_points(const Vec3& radii);
+
 /// Hulls in the place of meshes or other round shapes.
 class RobotHulls {
  public:

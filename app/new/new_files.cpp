@@ -10,6 +10,7 @@
 #include "app/gait/run_time.h"
 #include "app/new/chain.h"
 #include "app/new/leg_values.h"
+#include "app/new/module_values.h"
 #include "app/new/scenario_values.h"
 #include "app/new/skeletons.h"
 #include "app/shell/commands.h"
@@ -23,7 +24,6 @@
 #include "core/settings/writer.h"
 #include "core/simulation/simulation.h"
 #include "interchange/robot_module.h"
-#include "report/analysis/own_overlap.h"
 
 namespace gaitlab::app {
 
@@ -50,49 +50,6 @@ std::string write_new(const NewFileArguments& arguments, const std::string& text
   return file;
 }
 
-/// The key `may_overlap` for the pairs of the file, and for bodies that overlap at all angles, with a note on these; empty if
-/// there are none.
-std::string overlap_text(const interchange::RobotModule& made, const std::string& from) {
-  Problems problems;
-  const ModuleType type = read_module(parse_yaml(made.text, "module"), true, problems);
-  problems.raise();
-  std::vector<std::string> names;
-  for (const BodyType& body : type.bodies) names.push_back(body.name);
-  const BodyPairs excluded(made.may_overlap, names);
-  std::vector<BodyPair> pairs;
-  for (const auto& [a, b] : report::always_overlapping(type)) {
-    if (!excluded.has(a, b)) pairs.push_back({names[a], names[b]});
-  }
-  std::string text;
-  const auto add = [&](const char* comment, const std::vector<BodyPair>& list) {
-    if (!list.empty()) text += comment;
-    for (const BodyPair& pair : list) text += fmt::format("  - [{}, {}]\n", yaml_text(pair.first), yaml_text(pair.second));
-  };
-  add("  # whose contact the file excludes\n", made.may_overlap);
-  add("  # that overlap by more than 0.5 mm at all angles, as drawn\n", pairs);
-  if (text.empty()) return text;
-  if (!pairs.empty()) {
-    say(from, "note",
-        fmt::format("may_overlap lists {} of bodies that overlap at all angles, the first '{}' and '{}'",
-                    counted(pairs.size(), "pair"), pairs[0].first, pairs[0].second));
-  }
-  return "# Bodies that the check `collision` leaves out:\nmay_overlap:\n" + text;
-}
-
-/// A scenario on one line in which a module without motors moves by itself: with its base and contact elements, and with hinges
-/// within their ranges.
-std::string fall_text(const std::string& file) {
-  Catalog catalog = standard_catalog();
-  const Scenario one = read_module(file, catalog);
-  const ModuleType& type = one.robot->types[0];
-  const bool touches = !type.all.empty() || !type.feet.empty();
-  const std::string angles = gait_values(one, 0).angles;
-  return fmt::format("{{gaitlab: 1, robot: {{modules: {}{}}}, actuator: {{type: none}}, contact: {{on: {}}}, {}{}duration: 5}}",
-                     yaml_text(file.find('/') == std::string::npos ? "./" + file : file),
-                     type.base == Base::floating ? "" : fmt::format(", base: {}", name_of(type.base)), touches ? "all" : "none",
-                     touches ? "" : "ground: {type: none}, ", angles == "0" ? "" : "initial: {angles: " + angles + "}, ");
-}
-
 int new_module(const NewFileArguments& arguments) {
   const std::string& name = arguments.name;
   check_file_name("module", name);
@@ -108,7 +65,9 @@ int new_module(const NewFileArguments& arguments) {
     interchange::RobotModule made = interchange::module_of_robot(*arguments.from, name, arguments.options);
     for (const interchange::RobotNote& note : made.notes) say(to_string(note.place), "note", note.kind() + (": " + note.text));
     changes = static_cast<std::size_t>(std::ranges::count(made.notes, true, &interchange::RobotNote::changed));
-    text = made.text + overlap_text(made, *arguments.from);
+    const OverlapKey overlap = overlap_key(made);
+    if (!overlap.note.empty()) say(*arguments.from, "note", overlap.note);
+    text = made.text + overlap.text;
     what = "the robot of " + *arguments.from + " as a module";
     driven = made.driven;
   }

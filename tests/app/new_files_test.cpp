@@ -241,7 +241,8 @@ TEST_F(NewFiles, EveryModuleWithAMotorGetsAFeasibleGait) {
       continue;
     }
     ASSERT_EQ(made.code, 0) << name << made.err;
-    EXPECT_FALSE(contains(gaitlab("check s.yaml", folder / "").err, ": warning: ")) << name;
+    const std::string err = gaitlab("check s.yaml", folder / "").err;
+    EXPECT_EQ(std::regex_replace(err, std::regex("^s.yaml: note: cpg: [46] legs: .*\n"), ""), "") << name;
     EXPECT_EQ(made.err, "") << name;
     EXPECT_EQ(verdict("s.yaml"), "feasible") << name;
     std::filesystem::remove(folder / "s.yaml");

@@ -200,7 +200,7 @@ TEST_F(FromMjcf, RefusesWithAPlace) {
   EXPECT_EQ(refused(robot("\n<joint axs='0 0 1'/>")),
             "r:4:1: error: 'axs' of <joint> is unknown to libmujoco 2.2.2, which reads MJCF");
   EXPECT_EQ(refused(robot("\n<composite type='grid'/>")),
-            "r:4:1: error: <composite> stands for bodies that the file does not list; write them out");
+            "r:4:1: error: <composite> makes bodies that the file does not list; write them out");
   EXPECT_EQ(refused("<worldbody>\n<body>\n"), "r:3:1: error: is not well-formed XML");
   EXPECT_EQ(refused(robot("<include file='none.xml'/>")), "r:3:90: error: includes 'none.xml', which is not beside r");
   EXPECT_EQ(refused(robot("<include file='r.xml'/>")), "r:3:90: error: includes 'r.xml' again; expected each file once");

