@@ -12,7 +12,7 @@ const char* const Keyframes::kManual =
     theta(t) = a y_k + b y_k+1 + ((a^3 - a) M_k + (b^3 - b) M_k+1) h^2 / 6      t_k <= t <= t_k+1
     h = t_k+1 - t_k,  b = (t - t_k) / h,  a = 1 - b;  for t < ramp: y_0 + (t / ramp) (theta(t) - y_0)
 
-y: angles of the frames. M: second derivatives there. Linear: 0. Spline: such that the speed is continuous, a cubic spline,
+y: angles of the frames. Hold: y_k until t_k+1. M: second derivatives there. Linear: 0. Spline: such that the speed is continuous, a cubic spline,
 
     h_k-1 M_k-1 + 2 (h_k-1 + h_k) M_k + h_k M_k+1 = 6 ((y_k+1 - y_k) / h_k - (y_k - y_k-1) / h_k-1)
 
@@ -125,7 +125,7 @@ void Keyframes::Frame::fields(Fields& f) {
 }
 
 void Keyframes::Model::fields(Fields& f) {
-  static constexpr const char* kInterpolations[] = {"spline", "linear"};
+  static constexpr const char* kInterpolations[] = {"spline", "linear", "hold"};
   f.list("frames", frames,
          "At least two frames, in order of increasing time; default: two frames that hold every joint at its default.");
   if (const std::string wrong = wrong_times(frames); !wrong.empty()) f.problem("frames", wrong);
@@ -140,7 +140,10 @@ void Keyframes::Model::fields(Fields& f) {
 void Keyframes::Settings::fields(Fields& f) { f.group("model", model, "Keys that only this type has."); }
 
 Keyframes::Keyframes(const RobotInfo& robot, const Settings& settings)
-    : joints_(robot.joints.size()), repeat_(settings.model.repeat), ramp_(settings.model.ramp) {
+    : joints_(robot.joints.size()),
+      hold_(settings.model.interpolation == Interpolation::hold),
+      repeat_(settings.model.repeat),
+      ramp_(settings.model.ramp) {
   const std::vector<Frame>& frames = settings.model.frames;
   if (const std::string wrong = wrong_times(frames); !wrong.empty()) throw std::invalid_argument(wrong);
   for (const Frame& frame : frames) {
@@ -180,8 +183,12 @@ void Keyframes::curve() {
 void Keyframes::output(double t, In, Out setpoint) const {
   const double end = time_.back();
   const double at = std::clamp(repeat_ ? t - end * std::floor(t / end) : t, 0.0, end);
-  const auto next = std::upper_bound(time_.begin() + 1, time_.end() - 1, at);
+  const auto next = std::upper_bound(time_.begin() + 1, hold_ ? time_.end() : time_.end() - 1, at);
   const auto k = static_cast<std::size_t>(next - time_.begin()) - 1;
+  if (hold_) {
+    std::copy_n(angle_.begin() + static_cast<std::ptrdiff_t>(k * joints_), joints_, setpoint.begin());
+    return ramp(t, setpoint);
+  }
   const double h = time_[k + 1] - time_[k];
   const double b = (at - time_[k]) / h;
   const double a = 1 - b;
@@ -191,6 +198,11 @@ void Keyframes::output(double t, In, Out setpoint) const {
     const double bend = (a * a * a - a) * m[j] + (b * b * b - b) * m[joints_ + j];
     setpoint[j] = a * y[j] + b * y[joints_ + j] + bend * h * h / 6;
   }
+  ramp(t, setpoint);
+}
+
+/// Scales the motion about the first frame while the ramp lasts.
+void Keyframes::ramp(double t, Out setpoint) const {
   if (!(t < ramp_)) return;
   for (std::size_t j = 0; j < joints_; ++j) setpoint[j] = angle_[j] + t / ramp_ * (setpoint[j] - angle_[j]);
 }

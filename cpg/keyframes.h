@@ -6,7 +6,7 @@ namespace gaitlab::cpg {
 
 class Keyframes final : public Cpg {
  public:
-  enum class Interpolation { spline, linear };
+  enum class Interpolation { spline, linear, hold };
   struct Frame {
     double time = 0;
     PerJoint angles;
@@ -34,9 +34,10 @@ class Keyframes final : public Cpg {
  private:
   void check_closed(const RobotInfo& robot);
   void curve();
+  void ramp(double t, Out setpoint) const;
 
   std::size_t joints_;
-  bool repeat_;
+  bool hold_, repeat_;
   double ramp_;
   std::vector<double> time_;               ///< time of every frame, s
   std::vector<double> angle_, curvature_;  ///< angle, rad, and its second derivative, rad/s^2; index frame * joints + joint

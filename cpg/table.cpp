@@ -87,7 +87,7 @@ Keyframes::Settings keyframes_of(const RobotInfo& robot, const Table::Model& mod
 }  // namespace
 
 void Table::Model::fields(Fields& f) {
-  static constexpr const char* kInterpolations[] = {"spline", "linear"};
+  static constexpr const char* kInterpolations[] = {"spline", "linear", "hold"};
   f.file("file", file, "The CSV: time and joints, or JSON with a list `entries`.");
   f.text("time", time, "Name of the column of times, which may begin at any time; without it, the first column, from 0.");
   f.columns("columns", columns,

@@ -8,11 +8,12 @@ namespace gaitlab {
 
 /// Values at a control tick in SI units, with one entry per joint. `touching` has one entry per module, 1 or 0. A value is the
 /// true one, unless a sensor of the scenario replaces it. `channels` contains all other sensor values, in the order of
-/// RobotInfo::channels.
+/// RobotInfo::channels. `load` is the sum of the normal forces on the link that the joint moves, N.
 struct Measured {
   double t, period;
   In angle, speed, torque, touching;
   In channels = {};
+  In load = {};
 };
 
 /// Times that a model states about its set points, s. 0 if the model does not state a time.

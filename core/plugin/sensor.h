@@ -28,11 +28,12 @@ struct Truth {
   std::int64_t tick = 0;               ///< number of the control tick, from 0
   In angle, speed, torque, current;    ///< by joint: rad, rad/s, N m, A; `current` only if a sensor needs it
   In module_load, body_load;           ///< by module and by body: sum of the normal forces of the contact elements, N
+  In load;                             ///< by joint: the same for the link that the joint moves
   std::span<const BodyMotion> motion;  ///< one per entry of Sensor::points()
 };
 
 /// Value in Measured that a reading replaces. A reading that replaces nothing is an entry of Measured::channels.
-enum class Replaces { nothing, angle, speed, torque, touching };
+enum class Replaces { nothing, angle, speed, torque, touching, load };
 
 /// Description of a number that a sensor measures.
 struct SensorReading {

@@ -104,7 +104,7 @@ class KeyChecks final : public Fields {
 /// Words for the value that two sensors would replace, such as `the angle of joint 'm0/active'`, or for their column.
 std::string measured_value(const SensorReading& reading, const Robot& robot) {
   if (reading.replaces == Replaces::nothing) return "column " + in_quotes(reading.column);
-  constexpr std::string_view kQuantities[] = {"", "angle", "speed", "torque", "load"};
+  constexpr std::string_view kQuantities[] = {"", "angle", "speed", "torque", "load", "load"};
   const bool module = reading.replaces == Replaces::touching;
   return fmt::format("the {} of {} {}", kQuantities[static_cast<std::size_t>(reading.replaces)], module ? "module" : "joint",
                      in_quotes(module ? fmt::format("m{}", reading.part) : robot.joints[reading.part].name));

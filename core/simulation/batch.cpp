@@ -15,18 +15,6 @@ namespace {
 
 using LaneGroup = std::vector<std::size_t>;  ///< indices of waiting rollouts
 
-/// Number of lanes for `left` remaining rollouts: the smallest width that is enough for all rollouts, else the largest width up
-/// to `most` (0 means no bound).
-std::size_t width(std::span<const std::size_t> widths, std::size_t left, std::size_t most) {
-  std::size_t best = widths.front();
-  for (const std::size_t lanes : widths) {
-    if (most != 0 && lanes > most) break;
-    best = lanes;
-    if (lanes >= left) break;
-  }
-  return best;
-}
-
 /// Frequencies among the settings of the CPG, Hz. A setting with a value per joint counts with the value of the first joint.
 std::vector<double> frequencies(const Scenario& s) {
   std::vector<double> all;
@@ -62,7 +50,7 @@ class Waiting {
       if (i == 0 || can_share(first, waiting_[i].rollout.scenario)) group.push_back(i);
     }
     if (estimated_by_rollouts(first)) group.resize(1);
-    keep_nearest(group, width(first.physics.engine->lanes, fair(group.size()), settings_.lanes));
+    keep_nearest(group, lane_width(*first.physics.engine, fair(group.size()), settings_.lanes));
     std::vector<Rollout> pack;
     for (const std::size_t i : group) {
       links_ -= waiting_[i].rollout.scenario.robot->links.size();
@@ -139,7 +127,7 @@ bool run_pack(std::vector<RolloutEnd>& pack, const BatchStream& stream, const Ba
       lanes.reserve(pack.size());
       for (const RolloutEnd& one : pack) lanes.push_back(one.rollout.scenario);
       // Unused lanes repeat the last rollout.
-      lanes.resize(width(lanes.front().physics.engine->lanes, lanes.size(), settings.lanes), lanes.back());
+      lanes.resize(lane_width(*lanes.front().physics.engine, lanes.size(), settings.lanes), lanes.back());
       Simulation simulation(lanes, records);
       if (stream.watch) {
         simulation.watch([&](std::size_t lane, const Recording& so_far) {
@@ -157,6 +145,16 @@ bool run_pack(std::vector<RolloutEnd>& pack, const BatchStream& stream, const Ba
 }
 
 }  // namespace
+
+std::size_t lane_width(const Engine& engine, std::size_t wanted, std::size_t most) {
+  std::size_t best = engine.lanes.front();
+  for (const std::size_t lanes : engine.lanes) {
+    if (most != 0 && lanes > most) break;
+    best = lanes;
+    if (lanes >= wanted) break;
+  }
+  return best;
+}
 
 bool run_pulled(const BatchStream& stream, const BatchSettings& settings, Records records, std::atomic<bool>& stop,
                 std::size_t look_ahead) {

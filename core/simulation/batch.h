@@ -19,6 +19,10 @@ struct BatchSettings {
   std::size_t lanes = 0;  ///< largest number of lanes per group; 0 means the largest number that engine and processor allow
 };
 
+/// Number of lanes for `wanted` rollouts: the smallest of the engine's widths that is enough for them, else the largest up to
+/// `most` (0: no bound).
+std::size_t lane_width(const Engine& engine, std::size_t wanted, std::size_t most);
+
 /// Runs every scenario to its end. The scenarios may differ in everything. Scenarios with the same engine, integrator, step,
 /// actuator plugin and structure of the robot share lane groups (can_share). The result of a rollout does not depend on
 /// threads, lanes or other rollouts: it has the same bits as if the rollout ran alone. end(i, recording) is called once for

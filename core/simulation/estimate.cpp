@@ -220,7 +220,7 @@ void Simulation::step_companion(int times) try {
     check();
   }
 } catch (const PluginError& error) {  // the run continues
-  for (const auto& lane : lanes_) fail(*lane, stopped(error));
+  for (const auto& lane : lanes_) fail(*lane, stopped(error, step_number(), time()));
 }
 
 }  // namespace gaitlab

@@ -36,7 +36,7 @@ void Simulation::apply_faults() {
       const std::size_t i = j * lanes_.size() + lane->index;
       const FaultInForce own = lane->closed ? FaultInForce() : lane->changes.fault(j);
       const double hold = lane->closed ? kFree : lane->changes.hold(j);
-      const double since = lane->closed ? 0 : lane->changes.stuck_for(j, time());
+      const double since = lane->closed ? 0 : lane->changes.stuck_for(j, time(*lane));
       const bool same = since == stuck_for_[i] && (hold == hold_[i] || (std::isnan(hold) && std::isnan(hold_[i])));
       hold_[i] = hold;
       stuck_for_[i] = since;

@@ -1,5 +1,6 @@
 // Data of one rollout in a simulation, without arrays over all lanes.
 #pragma once
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
@@ -7,6 +8,7 @@
 #include "core/math/periods.h"
 #include "core/plugin/plugin_instance.h"
 #include "core/scenario/sensor_section.h"
+#include "core/simulation/action.h"
 #include "core/simulation/cpg_integrator.h"
 #include "core/simulation/lane_changes.h"
 #include "core/simulation/lane_clock.h"
@@ -34,7 +36,8 @@ struct Simulation::Lane {
         integrator(sample.cpg.size()),
         sensors(s) {
     const std::size_t n = info.joints.size();
-    for (auto* values : {&angle, &speed, &torque, &setpoint, &command, &limit, &bound, &angle_now, &speed_now, &fastest})
+    for (auto* values :
+         {&angle, &speed, &torque, &load, &asked, &setpoint, &command, &limit, &bound, &angle_now, &speed_now, &fastest})
       values->assign(n, 0.0);
     for (std::size_t j = 0; j < n; ++j) {
       if (!robot.joints[j].driven()) passive.push_back(j);
@@ -45,7 +48,18 @@ struct Simulation::Lane {
   }
 
   [[nodiscard]] Measured measured(double t) const {
-    return {t, scenario.control_period, angle, speed, torque, touching, channels};
+    return {t, scenario.control_period, angle, speed, torque, touching, channels, load};
+  }
+
+  /// Fills `touching` and `load` from the contacts of the sample.
+  void take_contacts() {
+    std::fill(touching.begin(), touching.end(), 0.0);
+    std::fill(load.begin(), load.end(), 0.0);
+    for (std::size_t c = 0; c < contacts.size(); ++c) {
+      const double fn = sample.contacts[c].fn;
+      if (fn > 0) touching[robot.bodies[contacts[c].body].module] = 1;
+      if (const int joint = robot.links[contacts[c].link].joint; joint >= 0) load[static_cast<std::size_t>(joint)] += fn;
+    }
   }
 
   /// Advances the CPG states from t to t + Ts with constant inputs. Ts is the control period.
@@ -84,27 +98,35 @@ struct Simulation::Lane {
   const Robot& robot;
   std::size_t index;
   LaneClock clock;
-  bool closed = false;   ///< the recording of the lane is complete
-  bool divided = false;  ///< scratch: the integrator divided the last step of the lane at the present eighth
+  std::int64_t begun = 0;  ///< step of the simulation at which the lane started; not 0 only in SteppedLanes
+  bool closed = false;     ///< the lane has ended, and its recording is complete
+  bool sensed = false;     ///< the measured values belong to the present control tick
+  Action action;           ///< values given by SteppedLanes
+  bool divided = false;    ///< scratch: the integrator divided the last step of the lane at the present eighth
   Outcome outcome;
   std::vector<ContactElement> contacts;
   std::vector<std::size_t> passive = {};  ///< joints without a motor
   LaneChanges changes;
   Cpg* cpg;  ///< CPG and controller of the present segment
   Controller* controller;
-  Out cpg_state, controller_state, ledger;                                       // parts of Simulation::state_
-  double energy_at_start = 0;                                                    // J
+  Out block;                                ///< all numbers of the lane alone, of which the next three are parts
+  Out cpg_state, controller_state, ledger;  // parts of Simulation::state_
+  double energy_at_start = 0;               // J
   std::vector<double> angle, speed, torque, touching, setpoint, command, limit;  // by joint (touching: by module), for plugins
   std::vector<double> bound;                                                     // V, by joint: see LaneSupply
   std::vector<double> fastest;               // rad/s, largest speed at which each joint met a stop
   std::int64_t meetings = 0;                 // meetings with stops whose loads were measured
   std::vector<double> angle_now, speed_now;  // scratch: true angles and speeds, rad, rad/s
   std::vector<double> channels;              // values of sensors, for plugins
+  std::vector<double> load;                  // N, by joint, for plugins
+  std::vector<double> asked;                 // set points before faults, for SteppedLanes
   Sample sample;
   CpgIntegrator integrator;
   LaneSensors sensors;
   LaneSupply supply;
   std::unique_ptr<Recorder> recorder;  ///< nullptr for a companion (step_error.h)
 };
+
+inline std::int64_t Simulation::step_of(const Lane& lane) const { return step_number() - lane.begun; }
 
 }  // namespace gaitlab

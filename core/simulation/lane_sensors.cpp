@@ -35,7 +35,7 @@ void LaneSensors::sense(std::int64_t tick, const std::vector<ContactElement>& el
                         const MeasuredValues& measured) {
   sum_loads(elements, contacts);
   compute_motion();
-  Truth truth{tick, measured.angle, measured.speed, measured.torque, current_, module_load_, body_load_, {}};
+  Truth truth{tick, measured.angle, measured.speed, measured.torque, current_, module_load_, body_load_, measured.load, {}};
   std::size_t state = 0;
   std::size_t value = 0;
   std::size_t point = 0;
@@ -66,6 +66,9 @@ void LaneSensors::sense(std::int64_t tick, const std::vector<ContactElement>& el
         break;
       case Replaces::touching:
         measured.touching[part] = values_[i];
+        break;
+      case Replaces::load:
+        measured.load[part] = values_[i];
         break;
     }
   }

@@ -12,7 +12,7 @@ namespace gaitlab {
 
 /// Values for plugins that sensors replace, in the order of Measured.
 struct MeasuredValues {
-  Out angle, speed, torque, touching, channels;
+  Out angle, speed, torque, touching, channels, load;
 };
 
 /// The sensors of a scenario. Their states and values are in the array of the simulation. Only the constructor allocates.

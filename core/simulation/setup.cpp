@@ -15,20 +15,25 @@
 
 namespace gaitlab {
 
-bool can_share(const Scenario& a, const Scenario& b) {
+const char* keeps_apart(const Scenario& a, const Scenario& b) {
   const auto same_link = [](const Link& x, const Link& y) { return x.parent == y.parent && x.joint == y.joint; };
   const auto same_drive = [](const Joint& x, const Joint& y) {
     return x.driven() == y.driven() && x.play.any() == y.play.any();
   };
   const auto same_place = [](const ContactElement& x, const ContactElement& y) { return x.link == y.link; };
   const auto elements = [](const Scenario& s) { return contact_elements(*s.robot, s.contact.on); };
-  return estimated_by_rollouts(a) == estimated_by_rollouts(b) && a.physics.engine == b.physics.engine &&
-         a.physics.integrator == b.physics.integrator && a.physics.step == b.physics.step &&
-         a.physics.adaptive_step == b.physics.adaptive_step && a.control_period == b.control_period &&
-         a.actuator.entry == b.actuator.entry && a.base == b.base && a.contact.law == b.contact.law &&
-         std::ranges::equal(a.robot->links, b.robot->links, same_link) &&
-         std::ranges::equal(a.robot->joints, b.robot->joints, same_drive) &&
-         std::ranges::equal(elements(a), elements(b), same_place);
+  if (a.physics.engine != b.physics.engine) return "physics.engine";
+  if (a.physics.integrator != b.physics.integrator) return "physics.integrator";
+  if (a.physics.step != b.physics.step || a.physics.adaptive_step != b.physics.adaptive_step) return "physics.step";
+  if (estimated_by_rollouts(a) != estimated_by_rollouts(b)) return "physics.estimate";
+  if (a.control_period != b.control_period) return "controller.period";
+  if (a.actuator.entry != b.actuator.entry) return "actuator.type";
+  if (a.base != b.base) return "robot.base";
+  if (a.contact.law != b.contact.law) return "contact.law";
+  const bool same = std::ranges::equal(a.robot->links, b.robot->links, same_link) &&
+                    std::ranges::equal(a.robot->joints, b.robot->joints, same_drive) &&
+                    std::ranges::equal(elements(a), elements(b), same_place);
+  return same ? nullptr : "the links, motors or contact elements of the robot";
 }
 
 Simulation::Simulation(std::span<const Scenario> lanes, Records records) : Simulation(lanes, records, Role::run) {}
@@ -81,7 +86,7 @@ Simulation::Simulation(std::span<const Scenario> lanes, Records records, Role ro
   set_start();
   if (role_ == Role::companion) return;
   check_standing();
-  make_estimate();
+  if (role_ == Role::run) make_estimate();
 } catch (const PluginError& error) {
   throw InputError(lanes[0].place(std::string(word(error.kind)) + ".type"), error.what());
 }
@@ -150,11 +155,13 @@ void Simulation::cut_state(Out numbers) {
     bus_ = cut(2 * buses_ * lanes_.size());
   }
   for (const auto& lane : lanes_) {
+    const std::size_t from = at;
     lane->cpg_state = cut(lane->sample.cpg.size());
     lane->controller_state = cut(lane->controller == nullptr ? 0 : lane->controller->states());
     lane->ledger = cut(Ledger::kSums);
     lane->sensors.bind(cut(lane->sensors.states()));
     lane->changes.bind(cut(lane->changes.states()));
+    lane->block = numbers.subspan(from, at - from);
   }
   saved_.resize(state_.size());
   measured_.resize(lanes_.size());
@@ -188,6 +195,7 @@ void Simulation::set_start() {
   // The row at t = 0 is recorded before the first tick, but contains the readings of this tick. The tick then repeats the
   // readings.
   if (std::ranges::any_of(lanes_, [](const auto& lane) { return !lane->sensors.empty(); })) sense();
+  for (const auto& lane : lanes_) lane->sensed = false;
 }
 
 /// Resets a lane to its initial state, without a command yet: set point = angle, command 0.

@@ -8,7 +8,6 @@
 
 #include "core/laws/joint_friction.h"
 #include "core/recording/motor_limit.h"
-#include "core/simulation/cpg_check.h"
 #include "core/simulation/lane.h"
 
 namespace gaitlab {
@@ -25,9 +24,9 @@ SimulationError::SimulationError(Ended how, std::int64_t at_step, double at_time
     : RunError(what), ended(how), step(at_step), time(at_time), where(std::move(at)) {}
 
 bool Simulation::recorded(const Lane& lane) const { return role_ == Role::run && lane.index < recorded_; }
-bool Simulation::control_tick(const Lane& lane) const { return !lane.closed && lane.clock.commands(step_number()); }
+bool Simulation::control_tick(const Lane& lane) const { return !lane.closed && lane.clock.commands(step_of(lane)); }
 bool Simulation::trace_tick(const Lane& lane) const {
-  return recorded(lane) && !lane.closed && lane.clock.records(step_number());
+  return recorded(lane) && !lane.closed && lane.clock.records(step_of(lane));
 }
 bool Simulation::any(bool (Simulation::*tick)(const Lane&) const) const {
   return std::any_of(lanes_.begin(), lanes_.end(), [&](const auto& lane) { return (this->*tick)(*lane); });
@@ -56,7 +55,7 @@ void Simulation::step() try {
   state_[0] += 1;
   check();
 } catch (const PluginError& error) {
-  throw stopped(error);
+  throw stopped(error, step_number(), time());
 }
 
 bool Simulation::done() const {
@@ -76,7 +75,7 @@ bool Simulation::run(const std::function<void(double)>& progress, const std::ato
   record();  // t = duration is a row even if it is not a multiple of the trace period
   return true;
 } catch (const PluginError& error) {
-  throw stopped(error);
+  throw stopped(error, step_number(), time());
 }
 
 void Simulation::ask_watch() {
@@ -95,29 +94,16 @@ void Simulation::ask_watch() {
   }
 }
 
-SimulationError Simulation::stopped(const PluginError& error) const {
-  return {Ended::plugin, step_number(), time(), word(error.kind),
-          fmt::format("stopped at step {}, t = {:.6g} s: {}", step_number(), time(), error.what())};
-}
-
-/// Runs code for one lane. An exception ends the lane or, if there is only one lane, the run.
-template <class Work>
-void Simulation::guard(Lane& lane, Work work) try {
-  work();
-} catch (const PluginError& error) {
-  fail(lane, stopped(error));
-} catch (const SimulationError& error) {
-  fail(lane, error);
+SimulationError Simulation::stopped(const PluginError& error, std::int64_t step, double t) {
+  return {Ended::plugin, step, t, word(error.kind), fmt::format("stopped at step {}, t = {:.6g} s: {}", step, t, error.what())};
 }
 
 void Simulation::fail(Lane& lane, const SimulationError& error) {
-  if (!recorded(lane)) {
-    lane.closed = true;
-    return place_at_start(lane);
-  }
-  if (recorded_ == 1) throw SimulationError(error);
+  if (recorded(lane) && recorded_ == 1) throw SimulationError(error);
   lane.outcome = error.outcome();
-  end(lane);
+  if (recorded(lane)) return end(lane);
+  lane.closed = true;
+  place_at_start(lane);
 }
 
 /// Closes the recording of the lane and resets the lane to its initial state with zero commands, so that the unused lane cannot
@@ -199,104 +185,6 @@ In Simulation::evaluate_available(const StepEffort::Part& part) {
   return friction.empty() ? found : In(available);
 }
 
-void Simulation::sense() {
-  const std::size_t lanes = lanes_.size();
-  // Left limits, as in a trace row: the sensors depend on the state and the command in force, not on the method of the last
-  // step.
-  evaluate_torques(0);
-  const auto need_current = [](const auto& lane) { return lane->sensors.need_current(); };
-  if (std::ranges::any_of(lanes_, need_current)) evaluate_motors(motor_speeds());
-  plant_->update_contacts();
-  for (const auto& one : lanes_) {
-    Lane& lane = *one;
-    const std::size_t l = lane.index;
-    if (!control_tick(lane)) continue;
-    for (std::size_t j = 0; j < layout_.joints; ++j) {
-      lane.angle[j] = plant_state_[layout_.angles() + j * lanes + l];
-      lane.speed[j] = plant_state_[layout_.speeds() + j * lanes + l];
-      lane.torque[j] = torque_[j * lanes + l];
-    }
-    for (std::size_t k = 0; k < plays_.size(); ++k) {
-      if (!lane.robot.joints[plays_[k]].play.encoder_at_motor) continue;
-      lane.angle[plays_[k]] = plant_state_[layout_.rotors() + k * lanes + l];
-      lane.speed[plays_[k]] = plant_state_[layout_.rotor_speeds() + k * lanes + l];
-    }
-    std::fill(lane.touching.begin(), lane.touching.end(), 0.0);
-    plant_->contacts(l, lane.sample.contacts);
-    for (std::size_t c = 0; c < lane.contacts.size(); ++c) {
-      if (lane.sample.contacts[c].fn > 0) lane.touching[lane.robot.bodies[lane.contacts[c].body].module] = 1;
-    }
-    if (!lane.sensors.empty()) sense(lane);
-  }
-}
-
-/// Replaces true values of a lane by values of its sensors.
-void Simulation::sense(Lane& lane) {
-  LaneSensors& sensors = lane.sensors;
-  for (std::size_t j = 0; sensors.need_current() && j < layout_.joints; ++j) {
-    sensors.current()[j] = current_[j * lanes_.size() + lane.index];
-  }
-  if (sensors.need_motion()) layout_.read(plant_state_, lane.index, sensors.robot_state());
-  sensors.sense(lane.clock.tick(step_number()), lane.contacts, lane.sample.contacts,
-                {lane.angle, lane.speed, lane.torque, lane.touching, lane.channels});
-}
-
-void Simulation::command() {
-  for (const auto& lane : lanes_) {
-    if (!control_tick(*lane)) continue;
-    if (recorded(*lane)) lane->recorder->tick_due() ? record_tick(*lane) : lane->recorder->skip_tick();
-    guard(*lane, [&] { command(*lane); });
-  }
-  apply_faults();
-  if (role_ == Role::companion) return;
-  record_loads([](const Lane& lane) { return !lane.closed; });
-  watch_stability();
-}
-
-void Simulation::command(Lane& lane) {
-  const std::size_t lanes = lanes_.size();
-  const Measured measured = lane.measured(time());
-  const std::int64_t tick = lane.clock.tick(step_number());
-  lane.begin_tick(tick, plant_state_, layout_);
-  if (lane.cpg != nullptr) {
-    lane.cpg->event(measured, lane.cpg_state);
-    std::fill(lane.setpoint.begin(), lane.setpoint.end(), NAN);  // check_cpg finds entries that the CPG does not write
-    lane.cpg->output(time(), lane.cpg_state, lane.setpoint);
-  } else {
-    for (std::size_t j = 0; j < lane.setpoint.size(); ++j) lane.setpoint[j] = lane.scenario.initial.angles[j];
-  }
-  for (const std::size_t j : lane.passive) lane.setpoint[j] = plant_state_[layout_.angles() + j * lanes + lane.index];
-  lane.changes.lose(tick, setpoint_, lane.index, lane.setpoint);
-  if (lane.controller != nullptr) {
-    lane.controller->update(measured, lane.setpoint, lane.limit, lane.controller_state, lane.command);
-  }
-  lane.changes.cut(lane.command);
-  for (const std::size_t j : lane.passive) lane.command[j] = 0;
-  for (std::size_t j = 0; j < lane.setpoint.size(); ++j) {
-    setpoint_[j * lanes + lane.index] = lane.setpoint[j];
-    command_[j * lanes + lane.index] = lane.command[j];
-  }
-  supply(lane);
-  if (recorded(lane)) meter_.command(time(), lane.index, lane.command);
-  if (lane.cpg == nullptr) return;
-  lane.integrate_cpg(time());
-  check_cpg(*lane.cpg, lane.robot, lane.setpoint, lane.cpg_state, step_number(), time());
-}
-
-void Simulation::watch_stability() {
-  for (const auto& lane : lanes_) {
-    if (!recorded(*lane) || !control_tick(*lane)) continue;
-    Recording& recording = lane->recorder->recording;
-    const Stability now = plant_->stability(lane->index, commands(), false);
-    ++recording.control_ticks;
-    if (h_ * now.rate > 1) ++recording.control_ticks_above_1;
-    if (now.rate > recording.worst.rate) {
-      recording.worst = now;
-      recording.worst_time = time();
-    }
-  }
-}
-
 /// Advances the plant by a step. Adds the step to the ledger, which is part of the state, and to the statistics of the
 /// `measured` lanes.
 void Simulation::advance(double h, const std::function<bool(const Lane&)>& measured) {
@@ -320,9 +208,11 @@ void Simulation::advance(double h, const std::function<bool(const Lane&)>& measu
         first_.of(Out(saturation_), FirstLanes::saturation), first_.of(Out(power_in_), FirstLanes::power_in),
         first_.of(Out(copper_), FirstLanes::copper),         first_.of(Out(gear_), FirstLanes::gear)};
     for (std::size_t i = 0; i < friction.size(); ++i) dry_[i] = power_lost(friction[i], of_all.speed[i], creeps);
-    const bool peaks = part.instant || std::ranges::any_of(part.share, [](double share) { return share > 0; });
-    meter_.add(time(), part, first_.of(setpoint_, FirstLanes::setpoint), electrical, first_.of(In(dry_), FirstLanes::dry),
-               peaks ? evaluate_available(of_all) : available_, measured_);
+    if (role_ == Role::run) {
+      const bool peaks = part.instant || std::ranges::any_of(part.share, [](double share) { return share > 0; });
+      meter_.add(time(), part, first_.of(setpoint_, FirstLanes::setpoint), electrical, first_.of(In(dry_), FirstLanes::dry),
+                 peaks ? evaluate_available(of_all) : available_, measured_);
+    }
     if (part.instant) continue;
     for (std::size_t l = 0; l < recorded_; ++l) {
       const Out sums = lanes_[l]->ledger;
@@ -377,8 +267,8 @@ SimulationError Simulation::diverged(const Lane& lane) const {
       where = lane.robot.joints[j].name;
     }
   }
-  return {Ended::diverged, step_number(), time(), where,
-          fmt::format("diverged at step {}, t = {:.6g} s: {}{}", step_number(), time(),
+  return {Ended::diverged, step_of(lane), time(lane), where,
+          fmt::format("diverged at step {}, t = {:.6g} s: {}{}", step_of(lane), time(lane),
                       where == "base" ? "the base" : "joint " + where,
                       finite && worst > 0 ? fmt::format(" turns at {:.3g} rad/s", worst)
                                           : fmt::format(" is not finite, or beyond {:g} in SI units", kLargestSpeed))};

@@ -20,12 +20,15 @@ namespace gaitlab {
 
 class FaultyActuator;
 class PluginError;
+class SteppedLanes;
 struct Sample;
 struct Rotors;
 
-/// True if two scenarios can be lanes of one simulation. They must share engine, integrator, step, control period, actuator
-/// plugin, base, contact law and the structure of the robot: links, motors of joints, and the link of each contact element.
-bool can_share(const Scenario& a, const Scenario& b);
+/// First difference that keeps two scenarios from being lanes of one simulation, or nullptr. Lanes share engine, integrator,
+/// step, control period, actuator plugin, base, contact law and the structure of the robot: links, motors of joints, and the
+/// link of each contact element.
+const char* keeps_apart(const Scenario& a, const Scenario& b);
+inline bool can_share(const Scenario& a, const Scenario& b) { return keeps_apart(a, b) == nullptr; }
 
 /// True if the torque error of a run is estimated from whole rollouts beside it. Such a run needs a separate lane group.
 bool estimated_by_rollouts(const Scenario& s);
@@ -75,12 +78,17 @@ class Simulation {
   [[nodiscard]] double solves(std::size_t lane) const;
 
  private:
+  friend SteppedLanes;
   struct Lane;
-  enum class Role { run, companion };  ///< a companion records nothing, has no estimate, and step() throws nothing
+  /// Only a run is recorded and has an estimate. A companion is stepped beside a run, and `stepped` by SteppedLanes.
+  enum class Role { run, companion, stepped };
   Simulation(std::span<const Scenario> lanes, Records records, Role role);
 
   static std::vector<Scenario> side_by_side(std::span<const Scenario> lanes, Role role);
   [[nodiscard]] bool recorded(const Lane& lane) const;
+  /// Steps, and time, since the start of the lane.
+  [[nodiscard]] std::int64_t step_of(const Lane& lane) const;
+  [[nodiscard]] double time(const Lane& lane) const { return static_cast<double>(step_of(lane)) * h_ + within_; }
   [[nodiscard]] bool control_tick(const Lane& lane) const;
   [[nodiscard]] bool trace_tick(const Lane& lane) const;
   [[nodiscard]] bool any(bool (Simulation::*tick)(const Lane&) const) const;
@@ -145,7 +153,7 @@ class Simulation {
   [[nodiscard]] int met_stop(const Lane& lane, std::size_t joint, In from) const;
   void watch_stops();
   void watch_stop(const Lane& lane, std::size_t joint, int side);
-  [[nodiscard]] SimulationError stopped(const PluginError& error) const;
+  [[nodiscard]] static SimulationError stopped(const PluginError& error, std::int64_t step, double t);
   [[nodiscard]] SimulationError diverged(const Lane& lane) const;
 
   std::vector<Scenario> scenarios_;  ///< one per lane

@@ -11,6 +11,7 @@ Names of settings, columns and quantities, and their definitions, are those of t
 """
 from ._native import InputError, RunError, build
 from ._cpg import Joint, cpg
+from ._episodes import Column, Episodes, Truth, start
 from ._evaluator import Evaluator
 from ._rollouts import Rollouts, quantities, rollouts
 from ._run import Run, read, run
@@ -28,6 +29,8 @@ del _error
 
 __all__ = [
     "Check",
+    "Column",
+    "Episodes",
     "Evaluator",
     "InputError",
     "Joint",
@@ -38,6 +41,7 @@ __all__ = [
     "Search",
     "Study",
     "Table",
+    "Truth",
     "Warning",
     "build",
     "cpg",
@@ -45,5 +49,6 @@ __all__ = [
     "read",
     "rollouts",
     "run",
+    "start",
     "study",
 ]

@@ -3,11 +3,14 @@ from __future__ import annotations
 
 import os
 from dataclasses import dataclass
-from typing import Any, Mapping, Sequence, Union
+from typing import TYPE_CHECKING, Any, Mapping, Sequence, Union
 
 from . import _native
 from ._settings import mapping, path_text, texts
 from ._warnings import tell
+
+if TYPE_CHECKING:
+    from ._episodes import Episodes
 
 
 Plugins = Union[str, Sequence[Union[str, "os.PathLike[str]"]]]
@@ -107,6 +110,12 @@ class Scenario:
         other._native = self._native.with_(texts(settings))
         tell(other.warnings)
         return other
+
+    def start(self, **settings: Any) -> "Episodes":
+        """One environment of this scenario, which is stepped from Python: gaitlab.start(scenario, 1, ...)."""
+        from ._episodes import start
+
+        return start(self, 1, **settings)
 
     def __repr__(self) -> str:
         return f"<gaitlab.Scenario {self.name!r}, {len(self.joints)} joints>"

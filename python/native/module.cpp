@@ -10,6 +10,7 @@
 #include "core/scenario/resolved.h"
 #include "core/simulation/batch_limits.h"
 #include "python/native/apart.h"
+#include "python/native/episodes.h"
 #include "python/native/python_cpg.h"
 #include "python/native/rollouts.h"
 #include "python/native/run.h"
@@ -123,5 +124,6 @@ PYBIND11_MODULE(_native, m) {
   native::add_errors(m);
   native::add_scenario_class(m);
   native::add_run_class(m);
+  native::add_episodes(m);
   native::add_functions(m);
 }

@@ -127,7 +127,7 @@ void expect_filled(const char* method, const py::object& returned, const py::obj
 struct BoundObject {
   py::object self, output, derivative, event, start, measured;
   std::size_t states = 0;
-  CopiedArray x, rate, setpoint, angle, speed, torque, touching, channels;
+  CopiedArray x, rate, setpoint, angle, speed, torque, touching, channels, load;
 
   explicit BoundObject(py::object made) : self(std::move(made)) {
     output = attribute(self, "output");
@@ -147,6 +147,7 @@ struct BoundObject {
     measured.attr("torque") = torque.of(m.torque);
     measured.attr("touching") = touching.of(m.touching);
     measured.attr("channels") = channels.of(m.channels);
+    measured.attr("load") = load.of(m.load);
     return measured;
   }
 };

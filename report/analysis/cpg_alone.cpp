@@ -81,6 +81,7 @@ CpgAlone::CpgAlone(const Scenario& s, const Feedback& feedback)
       speed_(s.robot->joints.size(), feedback.speed),
       torque_(s.robot->joints.size(), feedback.torque),
       touching_(s.robot->modules.size(), feedback.touching),
+      load_(s.robot->joints.size(), feedback.load),
       setpoint_(s.robot->joints.size()),
       integrator_(0) {
   const RobotInfo robot = plugin_info(s);
@@ -95,7 +96,7 @@ CpgAlone::CpgAlone(const Scenario& s, const Feedback& feedback)
   cpg_->start(state_);
 }
 
-Measured CpgAlone::measured(double t) const { return {t, period_, angle_, speed_, torque_, touching_, channels_}; }
+Measured CpgAlone::measured(double t) const { return {t, period_, angle_, speed_, torque_, touching_, channels_, load_}; }
 
 const std::vector<double>& CpgAlone::rows(std::int64_t ticks) {
   rows_.reserve(static_cast<std::size_t>(std::max(ticks, ticks_)) * driven_.size());
@@ -139,7 +140,7 @@ std::vector<SetPointRange> set_point_ranges(const Scenario& s) {
   const auto ticks = static_cast<std::int64_t>(std::min(kTicksOfCpg, std::ceil(until / s.control_period)));
   CpgAlone alone(s);
   const std::vector<double>& rows = alone.rows(ticks);
-  const std::vector<double> moved = CpgAlone(s, {0.1, 0.3, 0.5, 1}).rows(std::min(ticks, kTicksOfFeedback));
+  const std::vector<double> moved = CpgAlone(s, {0.1, 0.3, 0.5, 1, 2}).rows(std::min(ticks, kTicksOfFeedback));
   if (StopsCpgAlone::asked() || !std::equal(moved.begin(), moved.end(), rows.begin())) return {};
   for (std::size_t i = 0; i < rows.size(); ++i) {
     SetPointRange& one = all[i % all.size()];

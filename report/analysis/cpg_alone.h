@@ -31,6 +31,7 @@ std::vector<double> frequencies(const Scenario& scenario, const PluginSelection&
 struct Feedback {
   double angle = 0;  ///< rad, added to the initial angle
   double speed = 0, torque = 0, touching = 0;
+  double load = 0;  ///< N, of each joint
 };
 
 /// During its lifetime, `stop` ends CpgAlone::rows() in this thread, because a CPG of a user may be slow.
@@ -66,7 +67,7 @@ class CpgAlone {
   std::unique_ptr<Cpg> cpg_;
   double period_, step_;  ///< s, of the control and of the CPG
   std::vector<bool> driven_ = {};
-  std::vector<double> angle_ = {}, speed_, torque_, touching_, channels_;
+  std::vector<double> angle_ = {}, speed_, torque_, touching_, channels_, load_;
   std::vector<double> state_, setpoint_;
   CpgIntegrator integrator_;
   std::int64_t ticks_ = 0;

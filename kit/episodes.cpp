@@ -1,0 +1,427 @@
+#include "kit/episodes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <utility>
+
+#include "core/build_id.h"
+#include "core/errors.h"
+#include "core/files/hash.h"
+#include "core/model/pattern.h"
+#include "core/parallel.h"
+#include "core/plugin/plugin_instance.h"
+#include "core/scenario/built_robot.h"
+#include "core/scenario/resolved.h"
+#include "core/scenario/sections.h"
+#include "core/scenario/sensor_section.h"
+#include "core/simulation/batch.h"
+#include "core/simulation/start.h"
+
+namespace gaitlab::kit {
+
+namespace {
+
+constexpr std::size_t kBase = 3 + 9 + 3 + 3;  // numbers of truth before the energy: position, rotation, velocities
+
+void add(std::vector<EpisodeColumn>& columns, const std::string& quantity, const std::vector<std::string>& parts,
+         const char* unit) {
+  for (const std::string& part : parts) columns.push_back({quantity + "." + part, unit});
+}
+
+std::vector<EpisodeColumn> observed_columns(const Scenario& s) {
+  const RobotInfo info = plugin_info(s);
+  const std::vector<std::string> joints = joint_names(*s.robot);
+  std::vector<std::string> modules;
+  for (std::size_t m = 0; m < info.modules.size(); ++m) modules.push_back(fmt::format("m{}", m));
+  std::vector<EpisodeColumn> columns;
+  add(columns, "angle", joints, "rad");
+  add(columns, "speed", joints, "rad/s");
+  add(columns, "torque", joints, "N m");
+  add(columns, "load", joints, "N");
+  add(columns, "touching", modules, "");
+  for (const std::string& channel : info.channels) columns.push_back({channel, ""});
+  return columns;
+}
+
+std::vector<EpisodeColumn> columns_of_truth(const std::vector<Leg>& legs) {
+  std::vector<EpisodeColumn> columns;
+  const std::vector<std::string> axes{"x", "y", "z"};
+  add(columns, "base.position", axes, "m");
+  add(columns, "base.rotation", {"xx", "xy", "xz", "yx", "yy", "yz", "zx", "zy", "zz"}, "");
+  add(columns, "base.velocity", axes, "m/s");
+  add(columns, "base.angular_velocity", axes, "rad/s");
+  columns.push_back({"energy", "J"});
+  columns.push_back({"time", "s"});
+  for (const Leg& leg : legs) columns.push_back({"leg.load." + leg.name, "N"});
+  return columns;
+}
+
+// --- bytes of a snapshot ---
+
+void put(std::string& to, const std::vector<double>& numbers) {
+  const std::uint64_t count = numbers.size();
+  to.append(reinterpret_cast<const char*>(&count), sizeof count);
+  to.append(reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(double));
+}
+
+void put(std::string& to, const std::string& text) {
+  const std::uint64_t count = text.size();
+  to.append(reinterpret_cast<const char*>(&count), sizeof count);
+  to += text;
+}
+
+[[noreturn]] void refuse(const std::string& what) { throw InputError(SourceLocation{"snapshot"}, what); }
+
+/// Reader of such bytes. Throws InputError for other sizes than the expected ones.
+class Bytes {
+ public:
+  explicit Bytes(std::string_view bytes) : rest_(bytes) {}
+  std::vector<double> numbers(std::size_t expected) {
+    if (take_count(sizeof(double)) != expected) refuse("does not fit these environments");
+    std::vector<double> all(expected);
+    take(all.data(), expected * sizeof(double));
+    return all;
+  }
+  /// Numbers in whole rows of `row`.
+  std::vector<double> rows(std::size_t row) {
+    std::vector<double> all(take_count(sizeof(double)));
+    if (all.size() % row != 0) refuse("does not fit these environments");
+    take(all.data(), all.size() * sizeof(double));
+    return all;
+  }
+  std::string text() {
+    std::string all(take_count(1), '\0');
+    take(all.data(), all.size());
+    return all;
+  }
+
+ private:
+  std::size_t take_count(std::size_t size) {
+    std::uint64_t count = 0;
+    if (rest_.size() < sizeof count) refuse("ends too early");
+    take(&count, sizeof count);
+    if (count > rest_.size() / size) refuse("ends too early");
+    return count;
+  }
+  void take(void* to, std::size_t bytes) {
+    std::memcpy(to, rest_.data(), bytes);
+    rest_.remove_prefix(bytes);
+  }
+  std::string_view rest_;
+};
+
+std::vector<double> numbers_of(const PerJoint& values, std::size_t joints) {
+  std::vector<double> all;
+  for (std::size_t j = 0; j < joints; ++j) all.push_back(values[j]);
+  return all;
+}
+
+std::vector<double> numbers_of(const Initial& start, std::size_t joints) {
+  std::vector<double> all = numbers_of(start.angles, joints);
+  const std::vector<double> speeds = numbers_of(start.speeds, joints);
+  all.insert(all.end(), speeds.begin(), speeds.end());
+  for (const Vec3& v : {start.base_velocity, start.base_angular_velocity}) all.insert(all.end(), v.data(), v.data() + 3);
+  return all;
+}
+
+}  // namespace
+
+Episodes::Episodes(std::vector<Scenario> scenarios, EpisodeSettings settings)
+    : scenarios_(std::move(scenarios)), settings_(std::move(settings)) {
+  Problems problems;
+  for (Scenario& one : scenarios_) one.physics.estimate = Estimate::off;
+  for (std::size_t i = 1; i < scenarios_.size(); ++i) {
+    const char* other = keeps_apart(scenarios_[0], scenarios_[i]);
+    if (other == nullptr && plugin_info(scenarios_[0]).channels != plugin_info(scenarios_[i]).channels) other = "the sensors";
+    if (other == nullptr) continue;
+    problems.add(SourceLocation{fmt::format("overrides[{}]", i)},
+                 fmt::format("changes {}, which environments that are stepped together share", other));
+  }
+  problems.raise();
+  const Robot& robot = *scenarios_[0].robot;
+  for (std::size_t j = 0; j < robot.joints.size(); ++j) {
+    if (robot.joints[j].driven()) driven_.push_back(j);
+  }
+  const std::vector<Leg> legs = plugin_info(scenarios_[0]).legs;
+  for (const Leg& leg : legs) leg_bodies_.emplace_back(leg.bodies.begin(), leg.bodies.end());
+  observed_ = observed_columns(scenarios_[0]);
+  true_columns_ = columns_of_truth(legs);
+  for (const Scenario& one : scenarios_) {
+    starts_.push_back(one.initial);
+  }
+  const std::size_t n = scenarios_.size();
+  observations_.resize(n * observed_.size());
+  truth_.resize(n * true_columns_.size());
+  outcomes_.resize(n);
+  ended_.assign(n, 0);
+  kept_.resize(n);
+  load_.assign(n, std::vector<double>(robot.bodies.size()));
+  states_.resize(n);
+  for (std::size_t i = 0; i < n; ++i) states_[i] = start_state(scenarios_[i]);
+  make_groups();
+  for (std::size_t i = 0; i < n; ++i) read(i);
+}
+
+void Episodes::make_groups() {
+  const std::size_t n = scenarios_.size();
+  const auto threads = static_cast<std::size_t>(std::max(1, settings_.threads));
+  const std::size_t lanes =
+      lane_width(*scenarios_[0].physics.engine, std::max<std::size_t>(1, (n + threads - 1) / threads), settings_.lanes);
+  const std::size_t joints = scenarios_[0].robot->joints.size();
+  for (std::size_t from = 0; from < n; from += lanes) {
+    std::vector<Scenario> side_by_side;
+    for (std::size_t l = 0; l < lanes; ++l) {
+      side_by_side.push_back(scenarios_[std::min(from + l, n - 1)]);  // unused lanes repeat the last environment
+      if (from + l < n) places_.push_back({groups_.size(), l});
+    }
+    first_.push_back(from);
+    lanes_.push_back(lanes);
+    groups_.push_back(std::make_unique<SteppedLanes>(side_by_side));
+    const std::size_t row = settings_.action.size() * joints;
+    parts_.emplace_back(lanes * row, 0.0);
+    std::vector<Action>& views = actions_.emplace_back(lanes);
+    for (std::size_t l = 0; l < lanes; ++l) {
+      for (std::size_t k = 0; k < settings_.action.size(); ++k) {
+        const In part = In(parts_.back()).subspan(l * row + k * joints, joints);
+        switch (settings_.action[k]) {
+          case ActionPart::setpoint:
+            views[l].setpoint = part;
+            break;
+          case ActionPart::residual:
+            views[l].residual = part;
+            break;
+          case ActionPart::command:
+            views[l].command = part;
+            break;
+        }
+      }
+    }
+  }
+}
+
+std::string Episodes::problem_of(In actions) const {
+  constexpr double kLargest = 3.2;  // rad, as check_angle() of robot_info.h
+  const std::size_t row = action_size();
+  const std::vector<Joint>& joints = scenarios_[0].robot->joints;
+  for (std::size_t i = 0; i < size(); ++i) {
+    for (std::size_t k = 0; k < row; ++k) {
+      const double value = actions[i * row + k];
+      const Joint& joint = joints[driven_[k % driven_.size()]];
+      if (!std::isfinite(value)) return fmt::format("action[{}, {}] is {} (joint {})", i, k, value, joint.name);
+      const bool angle = settings_.action[k / driven_.size()] == ActionPart::setpoint;
+      if (!angle || joint.hi == std::numeric_limits<double>::infinity() || std::abs(value) <= kLargest || ended_[i] != 0)
+        continue;
+      return fmt::format(
+          "action[{}, {}]: the set point of {} is {:.6g} rad; expected -3.2 to 3.2 for a hinge with a range; {:.6g} "
+          "degrees are {:.4g} rad",
+          i, k, joint.name, value, value, value * M_PI / 180);
+    }
+  }
+  return "";
+}
+
+void Episodes::step(In actions) {
+  if (groups_.size() == 1) return step_group(0, actions);
+  parallel(groups_.size(), settings_.threads, [&](std::size_t g) { step_group(g, actions); });
+}
+
+void Episodes::step_group(std::size_t g, In actions) {
+  SteppedLanes& own = *groups_[g];
+  const std::size_t joints = scenarios_[0].robot->joints.size();
+  const std::size_t used = std::min(lanes_[g], size() - first_[g]);
+  const std::size_t parts = settings_.action.size();
+  for (std::size_t l = 0; l < lanes_[g]; ++l) {
+    const In row = actions.subspan((first_[g] + std::min(l, used - 1)) * action_size(), action_size());
+    for (std::size_t k = 0; k < parts; ++k) {
+      for (std::size_t d = 0; d < driven_.size(); ++d)
+        parts_[g][(l * parts + k) * joints + driven_[d]] = row[k * driven_.size() + d];
+    }
+  }
+  for (std::int64_t tick = 0; tick < settings_.every; ++tick) {
+    bool any = false;
+    for (std::size_t l = 0; l < used; ++l) any = any || !own.ended(l);
+    if (!any) break;
+    own.tick(actions_[g]);
+    for (std::size_t l = 0; l < used; ++l) {
+      const std::size_t i = first_[g] + l;
+      if (ended_[i] != 0) continue;
+      const std::vector<double>& asked = own.asked(l);
+      if (settings_.record) kept_[i].insert(kept_[i].end(), asked.begin(), asked.end());
+      outcomes_[i] = own.outcome(l);
+      ended_[i] = own.ended(l) ? 1 : 0;
+      // A lane that has failed is at its start again; its last numbers are those of the tick before.
+      if (outcomes_[i].done()) read(i);
+    }
+  }
+}
+
+/// Fills the rows of an environment.
+void Episodes::read(std::size_t i) {
+  const SteppedLanes& from = group(i);
+  const std::size_t lane = places_[i].lane;
+  const Measured m = from.measured(lane);
+  auto to = observations_.begin() + static_cast<std::ptrdiff_t>(i * observed_.size());
+  for (const In part : {m.angle, m.speed, m.torque, m.load, m.touching, m.channels}) to = std::ranges::copy(part, to).out;
+  double* row = truth_.data() + i * true_columns_.size();
+  RobotState& state = states_[i];
+  from.read(lane, state);
+  const Mat3 R = state.orientation.toRotationMatrix();
+  std::copy_n(state.position.data(), 3, row);
+  for (Eigen::Index k = 0; k < 9; ++k) row[3 + k] = R(k / 3, k % 3);
+  std::copy_n(state.velocity.data(), 3, row + 12);
+  std::copy_n(state.angular_velocity.data(), 3, row + 15);
+  row[kBase] = from.energy(lane);
+  row[kBase + 1] = from.time(lane);
+  from.loads(lane, load_[i]);
+  for (std::size_t k = 0; k < leg_bodies_.size(); ++k) {
+    double sum = 0;
+    for (const std::size_t body : leg_bodies_[k]) sum += load_[i][body];
+    row[kBase + 2 + k] = sum;
+  }
+}
+
+void Episodes::stop(std::size_t i, const std::string& reason) {
+  if (ended_[i] != 0) return;
+  group(i).stop(places_[i].lane, reason);
+  outcomes_[i] = {Ended::stopped, reason};
+  ended_[i] = 1;
+}
+
+void Episodes::restart(std::span<const std::size_t> which, std::span<const Initial> starts) {
+  for (std::size_t k = 0; k < which.size(); ++k) {
+    const std::size_t i = which[k];
+    starts_[i] = starts.empty() ? scenarios_[i].initial : starts[k];
+    if (starts.empty()) {
+      group(i).restart(places_[i].lane);
+    } else {
+      Scenario other = scenarios_[i];
+      other.initial = starts[k];
+      group(i).restart(places_[i].lane, start_state(other));
+    }
+    outcomes_[i] = {};
+    ended_[i] = 0;
+    kept_[i].clear();
+    read(i);
+  }
+}
+
+std::string Episodes::ended(std::size_t i) const { return ended_[i] == 0 ? "" : name_of(outcomes_[i].ended); }
+
+/// First line of a snapshot: what it fits.
+std::string Episodes::head() const {
+  std::uint64_t state = kFnvOffset;
+  for (const Scenario& one : scenarios_) state = fnv1a(resolved(one), state);
+  for (const ActionPart part : settings_.action) state = fnv1a(name_of(part), state);
+  return fmt::format("gaitlab snapshot, build {}, {} environments of {}, {:016x}\n", build_id(), size(), scenarios_[0].name,
+                     fnv1a(fmt::format("{} {}", settings_.every, settings_.record), state));
+}
+
+std::string Episodes::snapshot() const {
+  std::string body;
+  const std::size_t joints = scenarios_[0].robot->joints.size();
+  for (std::size_t i = 0; i < size(); ++i) {
+    const SteppedLanes& from = group(i);
+    std::vector<double> numbers(from.size(places_[i].lane));
+    from.save(places_[i].lane, numbers);
+    put(body, numbers);
+    put(body, kept_[i]);
+    put(body, numbers_of(starts_[i], joints));
+    put(body, std::vector<double>{ended_[i] != 0 ? 1.0 : 0.0, static_cast<double>(outcomes_[i].ended)});
+    put(body, outcomes_[i].message);
+  }
+  put(body, observations_);
+  put(body, truth_);
+  return head() + hash_words(body) + "\n" + body;
+}
+
+void Episodes::restore(const std::string& bytes) {
+  const std::string own = head();
+  const std::size_t line = bytes.find('\n');
+  if (line == std::string::npos || !bytes.starts_with("gaitlab snapshot, ")) refuse("expected the bytes of snapshot()");
+  if (bytes.compare(0, line + 1, own) != 0) {
+    refuse(fmt::format("is of other environments or of another build: {}; these are {}", bytes.substr(0, line),
+                       own.substr(0, own.size() - 1)));
+  }
+  constexpr std::size_t kHash = 16;
+  const std::string_view rest = std::string_view(bytes).substr(line + 1);
+  if (rest.size() <= kHash || hash_words(rest.substr(kHash + 1)) != rest.substr(0, kHash)) refuse("is damaged");
+  Bytes body(rest.substr(kHash + 1));
+  const std::size_t joints = scenarios_[0].robot->joints.size();
+  struct One {
+    std::vector<double> lane, kept;
+    Initial start;
+    bool ended = false;
+    Outcome outcome;
+  };
+  std::vector<One> all(size());
+  for (std::size_t i = 0; i < size(); ++i) {
+    One& one = all[i];
+    one.lane = body.numbers(group(i).size(places_[i].lane));
+    one.kept = body.rows(joints);
+    const std::vector<double> start = body.numbers(2 * joints + 6);
+    const auto speeds = start.begin() + static_cast<std::ptrdiff_t>(joints);
+    const auto base = speeds + static_cast<std::ptrdiff_t>(joints);
+    one.start.angles.each.assign(start.begin(), speeds);
+    one.start.speeds.each.assign(speeds, base);
+    one.start.base_velocity = Vec3(&*base);
+    one.start.base_angular_velocity = Vec3(&*base + 3);
+    const std::vector<double> end = body.numbers(2);
+    one.ended = end[0] != 0;
+    for (const Ended how : {Ended::diverged, Ended::plugin, Ended::stopped}) {
+      if (end[1] == static_cast<double>(how)) one.outcome.ended = how;
+    }
+    one.outcome.message = body.text();
+  }
+  std::vector<double> observations = body.numbers(observations_.size());
+  std::vector<double> truth = body.numbers(truth_.size());
+  for (std::size_t i = 0; i < size(); ++i) {
+    group(i).load(places_[i].lane, all[i].lane);
+    kept_[i] = std::move(all[i].kept);
+    starts_[i] = std::move(all[i].start);
+    ended_[i] = all[i].ended ? 1 : 0;
+    outcomes_[i] = std::move(all[i].outcome);
+  }
+  std::ranges::copy(observations, observations_.begin());
+  std::ranges::copy(truth, truth_.begin());
+}
+
+std::vector<std::string> recorded_settings(const Scenario& s, const std::vector<double>& set_points, const Initial& start) {
+  constexpr std::size_t kMost = 40000;  // numbers; a YAML text has at most 1 MB
+  const auto refuse_set_points = [](const std::string& what) { throw InputError(SourceLocation{"run"}, what); };
+  const std::size_t joints = s.robot->joints.size();
+  const std::size_t rows = set_points.size() / joints;
+  if (rows == 0) refuse_set_points("the episode has no set points; expected at least one step with record=True");
+  if (set_points.size() > kMost) {
+    refuse_set_points(fmt::format("the episode has {} set points; a scenario contains at most {}: end it after {:.4g} s",
+                                  set_points.size(), kMost, static_cast<double>(kMost / joints) * s.control_period));
+  }
+  for (const Change& change : s.changes) {
+    const auto of_cpg = [](const auto& key) { return key.first == "cpg" || key.first.starts_with("cpg."); };
+    if (std::ranges::any_of(change.set.keys, of_cpg))
+      refuse_set_points(
+          fmt::format("the CPG changes at {} s (section `at`); set points that are recorded replace it", change.t));
+  }
+  std::string table = "time";
+  for (std::size_t j = 0; j < joints; ++j) {
+    if (s.robot->joints[j].driven()) table += "," + s.robot->joints[j].name;
+  }
+  // The last set points hold for a period; a table of one row needs a second one.
+  for (std::size_t k = 0; k <= rows; ++k) {
+    table += fmt::format("\\n{}", static_cast<double>(k) * s.control_period);
+    for (std::size_t j = 0; j < joints; ++j) {
+      if (s.robot->joints[j].driven()) table += fmt::format(",{}", set_points[std::min(k, rows - 1) * joints + j]);
+    }
+  }
+  const auto list = [](const auto& numbers) { return fmt::format("[{}]", fmt::join(numbers, ", ")); };
+  const auto vector = [&](const Vec3& v) { return list(std::vector<double>(v.data(), v.data() + 3)); };
+  return {fmt::format("cpg={{type: table, model: {{interpolation: hold, repeat: false, file: \"{}\\n\"}}}}", table),
+          fmt::format("initial={{angles: {}, speeds: {}, base_velocity: {}, base_angular_velocity: {}}}",
+                      list(numbers_of(start.angles, joints)), list(numbers_of(start.speeds, joints)),
+                      vector(start.base_velocity), vector(start.base_angular_velocity)),
+          fmt::format("duration={}", std::min(s.duration, static_cast<double>(rows) * s.control_period))};
+}
+
+}  // namespace gaitlab::kit

@@ -1,0 +1,123 @@
+// Environments of a learner: episodes of scenarios, stepped together from outside.
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/scenario/scenario.h"
+#include "core/simulation/stepped.h"
+
+namespace gaitlab {
+namespace kit {
+
+/// Part of an action; the parts of an action follow one another. `setpoint` and `residual` are in rad, `command` in the unit of
+/// the controller (Action).
+enum class ActionPart { setpoint, residual, command };
+
+}  // namespace kit
+
+template <>
+struct EnumNames<kit::ActionPart> {
+  using enum kit::ActionPart;
+  static constexpr EnumName<kit::ActionPart> kTable[] = {{setpoint, "setpoint"}, {residual, "residual"}, {command, "command"}};
+};
+
+namespace kit {
+
+struct EpisodeSettings {
+  std::vector<ActionPart> action{ActionPart::setpoint};
+  std::int64_t every = 1;  ///< control ticks for which an action holds
+  int threads = 1;
+  std::size_t lanes = 0;  ///< as BatchSettings::lanes
+  bool record = false;    ///< true if set points are kept for set_points()
+};
+
+/// A number of a row of observations or of truth.
+struct EpisodeColumn {
+  std::string name, unit;
+};
+
+/// Environments, one per scenario, which share engine, step, control period and structure of the robot (can_share). Each runs
+/// with the bits that it would have alone, for any number of threads, lanes and other environments. An environment that has
+/// ended keeps its last rows until restart(). Throws InputError whose place is `overrides[i]` for a scenario that does not fit
+/// the first one, and the errors of SteppedLanes.
+class Episodes {
+ public:
+  Episodes(std::vector<Scenario> scenarios, EpisodeSettings settings);
+
+  [[nodiscard]] std::size_t size() const { return scenarios_.size(); }
+  [[nodiscard]] const Scenario& scenario(std::size_t i) const { return scenarios_[i]; }
+  /// Joints with a motor; the entries of each part of an action.
+  [[nodiscard]] const std::vector<std::size_t>& driven() const { return driven_; }
+  [[nodiscard]] const std::vector<ActionPart>& parts() const { return settings_.action; }
+  [[nodiscard]] std::size_t action_size() const { return settings_.action.size() * driven_.size(); }
+  [[nodiscard]] const std::vector<EpisodeColumn>& observed() const { return observed_; }
+  [[nodiscard]] const std::vector<EpisodeColumn>& true_columns() const { return true_columns_; }
+
+  /// Steps all environments that have not ended by `every` control ticks, or to their end. `actions` has a row per environment.
+  /// The caller has checked it with problem_of().
+  void step(In actions);
+  /// First fault of `actions`, or "": a number that is not finite, or a set point that its hinge cannot have.
+  [[nodiscard]] std::string problem_of(In actions) const;
+  /// Ends an environment that has not ended.
+  void stop(std::size_t i, const std::string& reason);
+  /// Puts environments back to their start. With `starts`, one per environment of `which`, that is the state at the start.
+  void restart(std::span<const std::size_t> which, std::span<const Initial> starts = {});
+
+  /// A row per environment.
+  [[nodiscard]] In observations() const { return observations_; }
+  [[nodiscard]] In truth() const { return truth_; }
+  /// "" for an environment that has not ended, else `done`, `diverged`, `plugin` or `stopped`.
+  [[nodiscard]] std::string ended(std::size_t i) const;
+  /// Reason of the end, with step and time; "" before the end and after `done`.
+  [[nodiscard]] const std::string& message(std::size_t i) const { return outcomes_[i].message; }
+
+  /// Set points of the environment since its start, a row of all joints per control tick, rad. Empty if they are not kept.
+  [[nodiscard]] const std::vector<double>& set_points(std::size_t i) const { return kept_[i]; }
+  [[nodiscard]] const Initial& start(std::size_t i) const { return starts_[i]; }  ///< at its last start
+
+  /// Everything that changes, as bytes. restore() gives the same numbers again in another object with the same scenarios and
+  /// settings, also in another process of this build. Throws InputError for other bytes.
+  [[nodiscard]] std::string snapshot() const;
+  void restore(const std::string& bytes);
+
+ private:
+  struct Place {
+    std::size_t group = 0, lane = 0;
+  };
+  [[nodiscard]] SteppedLanes& group(std::size_t i) const { return *groups_[places_[i].group]; }
+  void make_groups();
+  void step_group(std::size_t group, In actions);
+  void read(std::size_t i);
+  [[nodiscard]] std::string head() const;
+
+  std::vector<Scenario> scenarios_;
+  EpisodeSettings settings_;
+  std::vector<std::size_t> driven_;
+  std::vector<EpisodeColumn> observed_, true_columns_;
+  std::vector<std::unique_ptr<SteppedLanes>> groups_;
+  std::vector<std::size_t> first_, lanes_;  ///< by group: first environment, and lanes, of which the last may be unused
+  std::vector<Place> places_;               ///< by environment
+  std::vector<double> observations_, truth_;
+  std::vector<Outcome> outcomes_;
+  std::vector<char> ended_;
+  std::vector<std::vector<double>> kept_;
+  std::vector<Initial> starts_;
+  std::vector<std::vector<std::size_t>> leg_bodies_;
+  std::vector<RobotState> states_;         ///< scratch, by environment
+  std::vector<std::vector<double>> load_;  ///< scratch, by environment and body, N
+  /// Scratch, by group: the parts of the actions by lane, part and joint, and views of them by lane.
+  std::vector<std::vector<double>> parts_;
+  std::vector<std::vector<Action>> actions_;
+};
+
+/// Settings KEY=VALUE that give a scenario these set points (a row of all joints per control tick, rad) in place of its CPG,
+/// and this start. Its duration is the number of rows, or the scenario's if that is shorter. Throws InputError without rows,
+/// with more numbers than a scenario may contain, and if section `at` of the scenario changes the CPG.
+std::vector<std::string> recorded_settings(const Scenario& scenario, const std::vector<double>& set_points,
+                                           const Initial& start);
+
+}  // namespace kit
+}  // namespace gaitlab
