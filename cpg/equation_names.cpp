@@ -50,6 +50,8 @@ const char* text_of(Where where) {
       return "an initial value";
     case Where::derivative:
       return "a derivative";
+    case Where::event:
+      return "an event";
     case Where::output:
       break;
   }
@@ -71,9 +73,17 @@ std::string offer_name(const std::string& found, const std::vector<std::string>&
 std::span<const GivenValue> given_values() { return kGiven; }
 
 EquationNames::EquationNames()
-    : entries_{{"pi", Kind::pi},       {"t", Kind::time},        {"angle", Kind::angle},
-               {"speed", Kind::speed}, {"torque", Kind::torque}, {"touching", Kind::touching},
-               {"w", Kind::weight},    {"psi", Kind::lag}} {
+    : entries_{{"pi", Kind::pi},
+               {"t", Kind::time},
+               {"angle", Kind::angle},
+               {"speed", Kind::speed},
+               {"torque", Kind::torque},
+               {"touching", Kind::touching},
+               {"load", Kind::load},
+               {"limb_load", Kind::limb_load},
+               {"limb_touching", Kind::limb_touching},
+               {"w", Kind::weight},
+               {"psi", Kind::lag}} {
   for (std::size_t k = 0; k < std::size(kGiven); ++k) entries_.push_back({kGiven[k].name, Kind::given, k});
 }
 
@@ -81,12 +91,27 @@ std::string EquationNames::declare(const std::string& name, Kind kind, std::size
   static const std::vector<std::string> kWords{"i", "j", "in", "neighbours", "sum"};
   const bool word = std::ranges::find(kWords, name) != kWords.end() || expression::find_function(name) != nullptr;
   const Entry* taken = find(name);
-  if (taken != nullptr && (taken->kind == Kind::parameter || taken->kind == Kind::state)) {
-    return in_quotes(name) + " is a parameter and a state; give one of them another name";
+  if (taken != nullptr && (taken->kind == Kind::parameter || taken->kind == Kind::state || taken->kind == Kind::channel)) {
+    return in_quotes(name) + " is declared twice, as a parameter, a state or an input; give one of them another name";
   }
   if (word || taken != nullptr) return in_quotes(name) + " has a fixed meaning in equations; choose another name";
   entries_.push_back({name, kind, slot});
   return {};
+}
+
+std::string EquationNames::declare_channel(const std::string& name, const std::string& channel) {
+  std::string wrong = declare(name, Kind::channel, channels_.size());
+  if (wrong.empty()) channels_.push_back(channel);
+  return wrong;
+}
+
+void EquationNames::declare_channels(const Term& term) {
+  const bool dotted = term.kind == Term::Kind::name && term.name.find('.') != std::string::npos;
+  if (dotted && find(term.name) == nullptr) {
+    entries_.push_back({term.name, Kind::channel, channels_.size()});
+    channels_.push_back(term.name);
+  }
+  for (const Term& argument : term.arguments) declare_channels(argument);
 }
 
 const EquationNames::Entry* EquationNames::find(const std::string& name) const {
@@ -106,9 +131,9 @@ bool EquationNames::may_name(const Entry& entry, const SourceLocation& place) {
       return place.where != Where::parameter || entry.slot < place.slot;
     case Kind::state:
     case Kind::time:
-      return place.where == Where::derivative || place.where == Where::output;
+      return place.where == Where::derivative || place.where == Where::event || place.where == Where::output;
     default:
-      return place.where == Where::derivative;
+      return place.where == Where::derivative || place.where == Where::event;
   }
 }
 
@@ -136,13 +161,14 @@ void EquationNames::check_name(const Term& term, const SourceLocation& place, st
     if (entry->kind == Kind::parameter) return wrong(name + " is defined below; a parameter may use only parameters above it");
     const bool measured = entry->kind != Kind::state && entry->kind != Kind::time;
     return wrong(name + " may not be used in " + text_of(place.where) + "; only in a derivative" +
-                 (measured ? "" : " or the output"));
+                 (measured ? " or an event: set a state" : ", an event or the output"));
   }
   if (pair != (term.index == Term::Index::ij)) {
     return wrong(pair ? name + " belongs to a coupling; write " + term.name + "[i,j]"
                       : name + " belongs to one joint; write [i] or [j]");
   }
-  if (term.index != Term::Index::none && (entry->kind == Kind::pi || entry->kind == Kind::time)) {
+  const bool single = entry->kind == Kind::pi || entry->kind == Kind::time || entry->kind == Kind::channel;
+  if (term.index != Term::Index::none && single) {
     wrong(name + " is one number; write it without brackets");
   }
 }
@@ -164,6 +190,9 @@ void EquationNames::check(const Term& term, const SourceLocation& place, std::ve
       faults.push_back(
           {term.offset, in_quotes(term.name) + " is not a function" +
                             (find(term.name) != nullptr ? "; multiply with *" : offer_name(term.name, known, "functions"))});
+    } else if (function->op == Function::Op::mod && found == 2 && term.arguments[1].kind == Term::Kind::number &&
+               !(term.arguments[1].number > 0)) {
+      faults.push_back({term.arguments[1].offset, "mod(a, b): b must be above 0"});
     } else if (function->arguments != found) {
       faults.push_back({term.offset, term.name + " has " + std::to_string(found) + (found == 1 ? " argument" : " arguments") +
                                          "; expected " + std::to_string(function->arguments)});

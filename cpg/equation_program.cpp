@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 namespace gaitlab::cpg {
@@ -10,10 +11,26 @@ namespace {
 using Op = expression::Function::Op;
 using Kind = EquationNames::Kind;
 
+/// Joints with a parent, and their parents; a joint precedes its parent.
+std::vector<std::pair<std::size_t, std::size_t>> inwards(const std::vector<std::int64_t>& parent) {
+  std::vector<std::pair<std::size_t, std::size_t>> order;  // depth, joint
+  for (std::size_t j = 0; j < parent.size(); ++j) {
+    std::size_t depth = 0;
+    for (std::int64_t p = parent[j]; p >= 0; p = parent[static_cast<std::size_t>(p)]) ++depth;
+    if (depth > 0) order.emplace_back(depth, j);
+  }
+  std::ranges::stable_sort(order, std::greater<>(), [](const auto& one) { return one.first; });
+  for (auto& [first, second] : order) {
+    first = second;
+    second = static_cast<std::size_t>(parent[first]);
+  }
+  return order;
+}
+
 }  // namespace
 
 EquationProgram::EquationProgram(const EquationNames& names, const EquationTables& tables, std::span<const Term> texts)
-    : joints_(tables.joints), module_(tables.module), names_(&names), tables_(&tables) {
+    : joints_(tables.joints), module_(tables.module), inwards_(inwards(tables.parent)), names_(&names), tables_(&tables) {
   for (const Coupling& c : tables.couplings) {
     from_.push_back(static_cast<std::size_t>(c.from));
     to_.push_back(static_cast<std::size_t>(c.to));
@@ -114,6 +131,27 @@ EquationProgram::Block EquationProgram::compile_name(const Term& term, Over over
     case Kind::torque:
       value.base = Base::torque;
       break;
+    case Kind::load:
+      value.base = Base::load;
+      break;
+    case Kind::limb_load:
+    case Kind::limb_touching: {
+      Instruction limb{Move::limb};
+      limb.in[0].base = Base::load;
+      value = emit(limb, Over::joints);
+      if (entry.kind == Kind::limb_load) break;
+      Instruction touches;
+      touches.op = Op::gt;
+      touches.in[0] = value;
+      touches.in[1] = constant(0, Over::joints);
+      value = emit(touches, Over::joints);
+      break;
+    }
+    case Kind::channel: {
+      Instruction one{Move::one};
+      one.in[0] = {Base::channels, tables_->channels[entry.slot]};
+      return emit(one, over);
+    }
     case Kind::touching: {
       Instruction gather{Move::gather_module};
       gather.in[0].base = Base::touching;
@@ -172,6 +210,13 @@ void EquationProgram::execute(const Instruction& instruction, const Bases& bases
     case Move::time:
       std::fill_n(out, n, t);
       return;
+    case Move::one:
+      std::fill_n(out, n, *a);
+      return;
+    case Move::limb:
+      std::copy_n(a, n, out);
+      for (const auto& [joint, parent] : inwards_) out[parent] += out[joint];
+      return;
     case Move::gather_from:
       for (std::size_t k = 0; k < n; ++k) out[k] = a[from_[k]];
       return;
@@ -189,8 +234,9 @@ void EquationProgram::execute(const Instruction& instruction, const Bases& bases
 }
 
 void EquationProgram::run(const EquationInputs& inputs, Out result) const {
-  const Bases bases{fixed_.data(),       scratch_.data(),      inputs.state.data(),    inputs.angle.data(),
-                    inputs.speed.data(), inputs.torque.data(), inputs.touching.data(), result.data()};
+  const Bases bases{fixed_.data(),          scratch_.data(),      inputs.state.data(),    inputs.angle.data(),
+                    inputs.speed.data(),    inputs.torque.data(), inputs.touching.data(), inputs.load.data(),
+                    inputs.channels.data(), result.data()};
   for (const Instruction& instruction : instructions_) {
     double* base = instruction.out.base == Base::result ? result.data() : scratch_.data();
     execute(instruction, bases, inputs.t, base + instruction.out.offset);

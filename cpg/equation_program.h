@@ -2,6 +2,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <utility>
 
 #include "cpg/equation_names.h"
 
@@ -12,7 +13,9 @@ struct EquationTables {
   std::size_t joints = 0;
   std::vector<std::vector<double>> given, parameters;  ///< values by slot, then by joint
   std::vector<Coupling> couplings;
-  std::vector<std::size_t> module;  ///< module of each joint
+  std::vector<std::size_t> module;    ///< module of each joint
+  std::vector<std::int64_t> parent;   ///< next joint towards the base, or -1
+  std::vector<std::size_t> channels;  ///< number in Measured::channels, by slot
 };
 
 /// Inputs of a run. A span that no text uses may be empty.
@@ -20,6 +23,7 @@ struct EquationInputs {
   double t = 0;
   In state, angle, speed, torque;  ///< index of state: slot * joints + joint; index of the other spans: joint
   In touching;                     ///< index: number of the module
+  In load = {}, channels = {};     ///< index: joint; number of the sensor value
 };
 
 /// Program of instructions. Each instruction is a loop over all joints or, within a neighbour sum, over all couplings, whose
@@ -35,13 +39,13 @@ class EquationProgram {
   void run(const EquationInputs& inputs, Out result) const;
 
  private:
-  enum class Base : std::uint8_t { fixed, scratch, state, angle, speed, torque, touching, result };
+  enum class Base : std::uint8_t { fixed, scratch, state, angle, speed, torque, touching, load, channels, result };
   /// A block of numbers with one number per joint or per coupling.
   struct Block {
     Base base = Base::fixed;
     std::size_t offset = 0;
   };
-  enum class Move : std::uint8_t { none, copy, time, gather_from, gather_to, gather_module, sum };
+  enum class Move : std::uint8_t { none, copy, time, one, gather_from, gather_to, gather_module, limb, sum };
   struct Instruction {
     Move move = Move::none;  ///< `none` means that the instruction computes `op`
     Function::Op op = {};
@@ -49,7 +53,7 @@ class EquationProgram {
     Block out = {};
     std::size_t count = 0;
   };
-  using Bases = std::array<const double*, 8>;
+  using Bases = std::array<const double*, 10>;
 
   /// Set over which a place in a text is evaluated: joints or, within a sum, couplings.
   enum class Over { joints, couplings };
@@ -67,6 +71,8 @@ class EquationProgram {
 
   std::size_t joints_ = 0;
   std::vector<std::size_t> from_, to_, module_;
+  /// Joints and the next ones towards the base, from the ends of the limbs inwards.
+  std::vector<std::pair<std::size_t, std::size_t>> inwards_;
   std::vector<Instruction> instructions_;
   std::vector<double> fixed_;
   mutable std::vector<double> scratch_;

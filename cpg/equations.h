@@ -7,6 +7,14 @@ namespace gaitlab::cpg {
 
 /// Settings of the model. The texts follow the grammar of core/expression/expression.h. The defaults are the model of
 /// `phase_oscillator`.
+/// A change of states at the control tick at which a condition becomes true, for each joint by itself.
+struct EquationEvent {
+  std::string when;
+  std::vector<Named> set;            ///< new values of states
+  std::vector<std::string> of{"*"};  ///< joints
+  void fields(Fields& f);
+};
+
 struct EquationsModel {
   double coupling = 1;
   std::vector<Named> states{{"phi", "omega + sum(j in neighbours, w[i,j]*sin(phi[j] - phi[i] - psi[i,j]))"},
@@ -15,6 +23,8 @@ struct EquationsModel {
   std::vector<Named> parameters;
   std::vector<Named> initial{{"phi", "phase"}, {"x", "offset"}};
   std::string output = "x + r*sin(phi)";
+  std::vector<Named> inputs;  ///< values of sensors
+  std::vector<EquationEvent> events;
   void fields(Fields& f);
 };
 
@@ -22,15 +32,18 @@ class Equations final : public Cpg {
  public:
   using Settings = OscillatorSettings<EquationsModel>;
   static const char* const kManual;
-  static constexpr std::size_t kMostStates = 32, kMostParameters = 64;
+  static constexpr std::size_t kMostStates = 32, kMostParameters = 64, kMostEvents = 16;
 
-  /// Throws std::invalid_argument if a text has a fault, or if a parameter or initial value is not finite for this robot.
+  /// Throws std::invalid_argument if a text has a fault, names a sensor value that the scenario lacks, or if a parameter or
+  /// initial value is not finite for this robot.
   Equations(const RobotInfo& robot, const Settings& settings);
-  /// Number of states. Each state of the model is a block with one number per joint.
-  [[nodiscard]] std::size_t states() const override { return states_.size() * joints_; }
+  /// Number of states. Each state of the model is a block with one number per joint, and so is each event: 1 while its
+  /// condition is true.
+  [[nodiscard]] std::size_t states() const override { return (states_.size() + events_.size()) * joints_; }
   [[nodiscard]] std::string state_name(std::size_t index) const override;
   void start(Out state) const override;
   void derivative(const Measured& measured, In state, Out rate) const override;
+  void event(const Measured& measured, Out state) const override;
   void output(double t, In state, Out setpoint) const override;
   [[nodiscard]] std::string note() const override { return network_.note(); }
 
@@ -39,6 +52,12 @@ class Equations final : public Cpg {
   OscillatorNetwork network_;
   std::vector<std::string> states_;
   EquationProgram initial_, derivative_, output_;
+  struct Event {
+    EquationProgram when, set;
+    std::vector<std::size_t> joints, states;  ///< joints that it applies to, and states that it sets
+  };
+  std::vector<Event> events_;
+  mutable std::vector<double> condition_, values_;  ///< scratch
 };
 
 }  // namespace gaitlab::cpg

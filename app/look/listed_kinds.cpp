@@ -10,6 +10,7 @@
 #include "app/look/module_table.h"
 #include "app/look/servo_table.h"
 #include "app/shell/progress.h"
+#include "core/scenario/cpg_file.h"
 #include "core/scenario/manual.h"
 #include "core/scenario/read_scenario.h"
 #include "core/settings/shipped_files.h"
@@ -38,6 +39,37 @@ ListedKind of_plugins(const PluginKind& plugin) {
           [kind](const std::string& name, Catalog& catalog) {
             return explain_plugin(*catalog.find(kind, name), terminal_columns(STDOUT_FILENO));
           }};
+}
+
+CpgFile cpg_file(const std::string& name) {
+  Problems problems;
+  std::optional<CpgFile> file = read_cpg_file(shipped_file("cpg", name), {}, problems);
+  problems.raise();
+  return std::move(*file);
+}
+
+/// The CPGs, those in files after the others.
+ListedKind of_cpgs(const PluginKind& plugin) {
+  ListedKind kind = of_plugins(plugin);
+  const auto is_plugin = [](const std::string& name, const Catalog& catalog) {
+    return catalog.find(Kind::cpg, name) != nullptr;
+  };
+  kind.names = [plugins = kind.names, is_plugin](const Catalog& catalog) {
+    std::vector<std::string> names = plugins(catalog);
+    for (const auto& [name, path] : shipped_files("cpg")) {
+      if (!is_plugin(name, catalog)) names.push_back(name);
+    }
+    return names;
+  };
+  kind.about = [about = kind.about, is_plugin](const std::string& name, Catalog& catalog) {
+    return is_plugin(name, catalog) ? about(name, catalog) : first_line(cpg_file(name).manual) + " (equations)";
+  };
+  kind.manual = [manual = kind.manual, is_plugin](const std::string& name, Catalog& catalog) {
+    if (is_plugin(name, catalog)) return manual(name, catalog);
+    const CpgFile file = cpg_file(name);
+    return manual_of(file) + "file: " + file.path + "\n";
+  };
+  return kind;
 }
 
 std::string engine_manual(const std::string& name, Catalog& catalog) {
@@ -96,7 +128,7 @@ ListedKind of_files(const std::string& kind, const std::string& plural, bool abo
 
 std::vector<ListedKind> all_kinds() {
   std::vector<ListedKind> all;
-  for (const PluginKind& plugin : kPluginKinds) all.push_back(of_plugins(plugin));
+  for (const PluginKind& plugin : kPluginKinds) all.push_back(plugin.kind == Kind::cpg ? of_cpgs(plugin) : of_plugins(plugin));
   all.push_back({"engine", "engines", [](const Catalog& catalog) { return catalog.engines(); },
                  [](const std::string& name, Catalog& catalog) { return first_line(catalog.engine(name)->manual); },
                  engine_manual});

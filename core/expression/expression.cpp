@@ -27,7 +27,7 @@ std::string found(const Token& token) {
 
 class Lexer {
  public:
-  Lexer(std::string_view text, NameSyntax names) : text_(text), names_(names) {}
+  explicit Lexer(std::string_view text) : text_(text) {}
 
   /// The text up to the next `]`, without blanks at both ends. The position advances past the `]`.
   Token bracketed() {
@@ -91,7 +91,7 @@ class Lexer {
     const auto dotted = [&] {
       return at_ + 1 < text_.size() && text_[at_] == '.' && (is_letter(text_[at_ + 1]) || text_[at_ + 1] == '_');
     };
-    while (names_ == NameSyntax::figures && dotted()) {
+    while (dotted()) {
       ++at_;
       word();
     }
@@ -114,13 +114,12 @@ class Lexer {
   }
 
   std::string_view text_;
-  NameSyntax names_;
   std::size_t at_ = 0;
 };
 
 class Parser {
  public:
-  Parser(std::string_view text, NameSyntax names) : lexer_(text, names), names_(names) { advance(); }
+  Parser(std::string_view text, NameSyntax names) : lexer_(text), names_(names) { advance(); }
 
   Term whole() {
     Term term = expression();

@@ -31,7 +31,7 @@ inline constexpr std::size_t kMostLevels = 64;  ///< nesting depth of brackets, 
 
 /// Syntax of names.
 enum class NameSyntax {
-  joints,  ///< `phi[i]`, `w[i,j]`: values per joint, with sums over neighbours
+  joints,  ///< `phi[i]`, `w[i,j]`, `imu.roll`: values per joint and of sensors, with sums over neighbours
   figures  ///< `torque.peak[m3/active]`: names with dots, and the name of a joint in brackets
 };
 
@@ -46,7 +46,7 @@ enum class NameSyntax {
 ///     factor := ("-" | "+") factor | primary [ "^" factor ]
 ///     primary := NUMBER | name | NAME "(" expression { "," expression } ")" | "(" expression ")"
 /// NameSyntax::joints adds the rules
-///     name := NAME [ "[" ("i" | "j" | "i" "," "j") "]" ]
+///     name := NAME { "." NAME } [ "[" ("i" | "j" | "i" "," "j") "]" ]
 ///     primary := "sum" "(" "j" "in" "neighbours" "," expression ")"
 /// and NameSyntax::figures the rule
 ///     name := NAME { "." NAME } [ "[" JOINT "]" ]

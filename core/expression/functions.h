@@ -36,7 +36,9 @@ struct Function {
     min,
     max,
     clamp,
-    choose
+    choose,
+    mod,
+    atan2
   };
   const char* name;
   std::size_t arguments;

@@ -61,6 +61,7 @@ std::optional<FileKind> kind_of(const Head& head) {
   const auto has = [&](const char* key) { return head.keys.contains(key); };
   if (head.line > 0 && head.docks) return FileKind::robot;
   if (has("gaitlab_servo")) return FileKind::servo;
+  if (has("gaitlab_cpg")) return FileKind::cpg;
   if (has("gaitlab_module") || (has("bodies") && !has("robot"))) return FileKind::module;
   if (has("gaitlab_study") || (has("parameters") && (has("scenario") || has("scenarios")))) return FileKind::study;
   if (has("panels") && !has("robot")) return FileKind::recipe;

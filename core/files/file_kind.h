@@ -8,7 +8,7 @@
 
 namespace gaitlab {
 
-enum class FileKind { scenario, module, servo, study, recipe, robot, run, golden, trace, page, results, urdf };
+enum class FileKind { scenario, module, servo, cpg, study, recipe, robot, run, golden, trace, page, results, urdf };
 
 struct FileKindRow {
   FileKind value;
@@ -25,6 +25,7 @@ struct EnumNames<FileKind> {
       {scenario, "scenario", "a scenario", "gaitlab run", "run it with"},
       {module, "module", "a module type", "gaitlab explain module", "its content:"},
       {servo, "servo", "a servo file", "", "name it in a scenario or module type, actuator: {type: servo, model: FILE}"},
+      {cpg, "cpg", "a CPG file", "", "name it in a scenario, cpg: {type: ./FILE}"},
       {study, "study", "a study", "", "run it with gaitlab sweep or gaitlab optimize"},
       {recipe, "recipe", "a recipe for figures", "gaitlab figure", "draw it with"},
       {robot, "robot", "a build file", "", "name it in a scenario, robot: {build: FILE}"},

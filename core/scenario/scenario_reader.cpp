@@ -7,12 +7,15 @@
 #include <cmath>
 #include <filesystem>
 #include <iterator>
+#include <optional>
+#include <utility>
 
 #include "core/plugin/plugin_instance.h"
 #include "core/robot_files/body_pair_list.h"
 #include "core/robot_files/servo_file.h"
 #include "core/scenario/built_robot.h"
 #include "core/scenario/change_section.h"
+#include "core/scenario/cpg_file.h"
 #include "core/scenario/ground_section.h"
 #include "core/scenario/group_section.h"
 #include "core/scenario/key_lookup.h"
@@ -53,7 +56,7 @@ const Scenario& ScenarioReader::read(std::string text, const std::vector<std::st
   });
   tell_dropped_keys(sets);
   const std::size_t before = problems_.size();
-  take_servos();
+  take_files();
   if (problems_.size() > before) raise();  // keys of a servo that is missing or wrong would be reported as missing
   read_name(head);
   read_body();
@@ -78,7 +81,7 @@ Scenario ScenarioReader::with(const std::vector<std::string>& sets) const {
   apply_sets(own.root_, sets, own.problems_);
   own.raise();
   own.tell_dropped_keys(sets);
-  own.take_servos();
+  own.take_files();
   own.raise();
   own.touched_ = TouchedSections(sections_of(sets));
   own.touched_.restart(own.scenario_);
@@ -96,12 +99,14 @@ void ScenarioReader::raise() const {
   if (!problems_.empty()) throw InputError(in_order(problems_.list(), path_));
 }
 
-void ScenarioReader::take_servos() {
+void ScenarioReader::take_files() {
   with_models_.clear();
   for (const char* const section : {"actuator", "controller"}) {
     const Node* const node = root_.find(section);
     if (node != nullptr && node->find(kServoModel) != nullptr) with_models_.emplace_back(section, *node);
   }
+  if (std::optional<Node> before = insert_cpg_file(root_, folder_, catalog_, problems_))
+    with_models_.emplace_back("cpg", std::move(*before));
   std::vector<Problem> hiding;
   insert_servos(root_, folder_, problems_, hiding);
   for (const Note& note : servo_notes_) std::erase(scenario_.notes, note);  // removes those of the template's servos

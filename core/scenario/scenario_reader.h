@@ -35,8 +35,9 @@ class ScenarioReader {
 
  private:
   void raise() const;
-  /// Inserts the keys of servos that are given by name, and keeps the sections as they were before for with().
-  void take_servos();
+  /// Inserts the keys of servos and of a CPG file that are given by name, and keeps the sections as they were before for
+  /// with().
+  void take_files();
   void add_note(std::string text);
   void tell_dropped_keys(const std::vector<std::string>& sets);
   void read_name(Reader& reader);
@@ -72,7 +73,7 @@ class ScenarioReader {
   std::shared_ptr<const std::vector<std::string>> joints_, modules_;  ///< names; null if the robot could not be read
   Note cpg_note_, controller_note_, source_note_;
   std::vector<Note> motor_notes_, servo_notes_;
-  std::vector<std::pair<std::string, Node>> with_models_;  ///< sections that name a servo, as written
+  std::vector<std::pair<std::string, Node>> with_models_;  ///< sections that name a servo or a CPG file, as written
   TouchedSections touched_;
 };
 

@@ -8,6 +8,7 @@
 #include "core/scenario/sections.h"
 #include "core/settings/overlay.h"
 #include "core/settings/schema_fields.h"
+#include "core/settings/shipped_files.h"
 
 namespace gaitlab {
 namespace {
@@ -102,6 +103,16 @@ Json plugin_section(const PluginFields& section, const Json& head, const Catalog
   }
   if (describe(section.kind).may_be_none) all.add("none", Json::object(), "No motor: the joints are free.");
   return all.take();
+}
+
+/// Allows a CPG file beside the names of the CPGs: a path, or the name of a shipped file. Its keys are not restricted.
+void allow_files(Json& type) {
+  Json names = Json::array();
+  for (const auto& [name, path] : shipped_files("cpg")) names.push_back(name);
+  Json all = Json::array({{{"enum", type.at("enum")}}, {{"pattern", "/|[.]yaml$"}}});
+  if (!names.empty()) all.push_back({{"enum", names}});
+  type.erase("enum");
+  type["anyOf"] = std::move(all);
 }
 
 /// Schema of one sensor.
@@ -242,6 +253,7 @@ std::string scenario_schema(const Catalog& catalog) {
   properties["controller"] =
       plugin_section(sections.controller, heads["controller"], catalog, describe(Kind::controller).default_type);
   properties["cpg"] = plugin_section(sections.cpg, heads["cpg"], catalog, describe(Kind::cpg).default_type);
+  allow_files(properties["cpg"]["properties"]["type"]);
   properties["duration"].erase("default");
   properties["sensors"] = sensors_section();
   properties["at"] = changes_section();

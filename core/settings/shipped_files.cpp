@@ -21,7 +21,8 @@ struct ShippedKind {
 constexpr ShippedKind kShipped[] = {
     {"module", {"modules", nullptr}, ".yaml"}, {"robot", {"robots", nullptr}, ".dat"},
     {"servo", {"servos", nullptr}, ".yaml"},   {"scenario", {".", "library", "imported"}, ".yaml"},
-    {"study", {"studies", nullptr}, ".yaml"},  {"recipe", {"figures", nullptr}, ".yaml"}};
+    {"cpg", {"cpg", nullptr}, ".yaml"},        {"study", {"studies", nullptr}, ".yaml"},
+    {"recipe", {"figures", nullptr}, ".yaml"}};
 
 }  // namespace
 

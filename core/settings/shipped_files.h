@@ -5,8 +5,8 @@
 
 namespace gaitlab {
 
-/// Files that are shipped with the program, of `kind` module, robot, servo, scenario, study or recipe, as a map from name to
-/// file.
+/// Files that are shipped with the program, of `kind` module, robot, servo, cpg, scenario, study or recipe, as a map from name
+/// to file.
 std::map<std::string, std::string> shipped_files(const std::string& kind);
 
 }  // namespace gaitlab
