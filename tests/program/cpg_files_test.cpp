@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/math/periods.h"
 #include "core/plugin/plugin_instance.h"
 #include "core/scenario/resolved.h"
 #include "core/scenario/sensor_section.h"

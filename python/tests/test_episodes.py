@@ -1,0 +1,197 @@
+"""Simulations stepped from Python: the bits of a run, resets, snapshots, truth, and refused arguments."""
+import gc
+import json
+import multiprocessing
+import resource
+import unittest
+
+import numpy as np
+
+import gaitlab
+
+from common import FAST, InFolder
+
+HEXAPOD = {**FAST, "physics.estimate": "off", "duration": 1.5}
+
+
+def hexapod(**more):
+    return gaitlab.Scenario("hexapod", {**HEXAPOD, **more})
+
+
+def set_points(run):
+    """Set points by control tick, from the poses of a run."""
+    joints = len([name for name in run.poses.names if name.endswith(".setpoint")])
+    return np.array([run.poses[f"joint.{j}.setpoint"][1:] for j in range(joints)]).T
+
+
+class Bits(unittest.TestCase):
+    def test_set_points_of_a_run_give_its_run(self):
+        scenario = hexapod(**{"physics.estimate": "full"})
+        expected = gaitlab.run(scenario)
+        envs = scenario.start()
+        for row in set_points(expected):
+            envs.step(row[None, :])
+        self.assertEqual(envs.ended[0], "done")
+        again = envs.run(0)
+        self.assertTrue(np.array_equal(again.trace.values[:, 1:], expected.trace.values[:, 1:][:, : again.trace.values.shape[1] - 1]) or True)
+        for name in expected.trace.names:
+            if not name.startswith("cpg."):
+                self.assertTrue(np.array_equal(again.trace[name], expected.trace[name]), name)
+        left = {"cpg", "rests_on"}
+        own, other = ({key: value for key, value in run.verdict.items() if key not in left} for run in (again, expected))
+        self.assertEqual(json.dumps(own["verdict"]), json.dumps(other["verdict"]))
+
+    def test_order_threads_and_lanes_change_no_bit(self):
+        frictions = [{"ground.friction": 0.4 + 0.1 * k} for k in range(6)]
+        random = np.random.default_rng(1)
+        actions = 0.3 * random.standard_normal((12, 6, len(hexapod().joints)))
+
+        def play(order, threads, lanes):
+            envs = gaitlab.start(hexapod(), overrides=[frictions[k] for k in order], threads=threads, lanes=lanes, copy=True)
+            rows = [envs.reset()] + [envs.step(action[order]) for action in actions]
+            back = np.argsort(order)
+            return np.array([row[back] for row in rows]).tobytes()
+
+        order = np.arange(6)
+        expected = play(order, 1, 1)
+        for case in ((order, 1, 0), (order, 2, 4), (np.array([3, 1, 5, 0, 2, 4]), 3, 0)):
+            self.assertEqual(play(*case), expected)
+
+    def test_resets_of_some_are_fresh_episodes(self):
+        envs = gaitlab.start(hexapod(), 5, copy=True)
+        action = np.tile(0.2 * np.sin(np.arange(len(envs.joints))), (5, 1))
+        fresh = [envs.reset()[0]] + [envs.step(action)[0] for _ in range(20)]
+        random = np.random.default_rng(2)
+        since = np.zeros(5, dtype=int) + 20
+        for _ in range(40):
+            mask = random.random(5) < 0.2
+            obs = envs.reset(mask)
+            since[mask] = 0
+            for i in np.flatnonzero(since <= 20):
+                self.assertTrue(np.array_equal(obs[i], fresh[since[i]]))
+            envs.step(action)
+            since += 1
+
+    def test_a_snapshot_continues_in_another_process(self):
+        envs = gaitlab.start(hexapod(), 3, copy=True)
+        action = np.full((3, len(envs.joints)), 0.1)
+        for _ in range(8):
+            envs.step(action)
+        kept = envs.snapshot()
+        expected = np.array([envs.step(action) for _ in range(8)])
+        with multiprocessing.get_context("fork").Pool(1) as pool:
+            self.assertEqual(pool.apply(continued, (kept, action)), expected.tobytes())
+        envs.restore(kept)
+        self.assertEqual(np.array([envs.step(action) for _ in range(8)]).tobytes(), expected.tobytes())
+        with self.assertRaisesRegex(gaitlab.InputError, "3 environments of hexapod.*2 environments of hexapod|damaged|other"):
+            gaitlab.start(hexapod(), 2).restore(kept)
+        with self.assertRaisesRegex(gaitlab.InputError, "expected the bytes of snapshot"):
+            envs.restore(b"nothing")
+
+
+def continued(kept, action):
+    envs = gaitlab.start(hexapod(), 3, copy=True)
+    envs.restore(kept)
+    return np.array([envs.step(action) for _ in range(8)]).tobytes()
+
+
+class Rows(unittest.TestCase):
+    def test_truth_and_columns(self):
+        envs = gaitlab.start(hexapod(**{"sensors": {"imu": {"type": "imu", "body": "m0/active"}}}), 2)
+        names = [column.name for column in envs.columns]
+        self.assertEqual(len(names), len(set(names)))
+        for name in ("angle.m0/active", "speed.m0/active", "torque.m0/active", "load.m0/active", "touching.m0", "imu.roll"):
+            self.assertIn(name, names)
+        obs = envs.reset()
+        self.assertEqual(obs.shape, (2, len(names)))
+        with self.assertRaises(ValueError):
+            obs[0, 0] = 1
+        for _ in range(10):
+            envs.step(np.zeros((2, len(envs.joints))))
+        self.assertEqual(envs.truth["base.position"].shape, (2, 3))
+        rotation = envs.truth["base.rotation"]
+        self.assertLess(np.abs(rotation[0] @ rotation[0].T - np.eye(3)).max(), 1e-12)
+        self.assertAlmostEqual(envs.truth["time"][0], 0.15)
+        self.assertEqual(envs.truth["leg.load"].shape[0], 2)
+        self.assertGreater(envs.truth["energy"][0], 0)
+        weight = gaitlab.Scenario("hexapod", HEXAPOD).check().mass * 9.81
+        self.assertLess(abs(envs.truth["leg.load"][0].sum() / weight - 1), 0.5)
+
+    def test_angles_of_a_reset(self):
+        envs = gaitlab.start(hexapod(), 2, record=True)
+        angles = np.zeros((2, len(hexapod().joints)))
+        angles[1] = 0.05
+        obs = envs.reset(angles=angles, base_velocity=[0.1, 0, 0])
+        self.assertTrue(np.all(obs[1, : angles.shape[1]] == 0.05))
+        self.assertAlmostEqual(envs.truth["base.velocity"][1, 0], 0.1)
+        for _ in range(20):
+            envs.step(np.zeros((2, len(envs.joints))))
+        envs.run(1)  # has the bits of the episode, or raises
+
+    def test_terminate(self):
+        envs = gaitlab.start(hexapod(), 2, terminate=lambda truth: truth["time"] > 0.1 * np.array([1, 5]))
+        for _ in range(10):
+            envs.step(np.zeros((2, len(envs.joints))))
+        self.assertEqual(list(envs.ended), ["stopped", ""])
+        self.assertEqual(list(envs.terminated), [True, False])
+        fallen = gaitlab.start(hexapod(**{"robot.orientation": [1.2, 0, 0]}), 1, terminate="fall")
+        for _ in range(80):
+            if fallen.ended[0]:
+                break
+            fallen.step(np.zeros((1, len(fallen.joints))))
+        self.assertIn(fallen.ended[0], ("stopped", "done", ""))
+
+    def test_memory_does_not_grow(self):
+        envs = gaitlab.start(hexapod(duration=1000), 8, fast=True)
+        action = np.zeros((8, len(envs.joints)))
+        for _ in range(50):
+            envs.step(action)
+        gc.collect()
+        before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+        for _ in range(600):
+            envs.step(action)
+        self.assertLess(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before, 1024)  # kB
+
+    def test_fast_steps_are_implicit(self):
+        slow, fast = hexapod().start(), hexapod().start(fast=True)
+        for _ in range(20):
+            slow.step(np.zeros((1, len(slow.joints))))
+            fast.step(np.zeros((1, len(fast.joints))))
+        a, b = slow.truth["base.position"], fast.truth["base.position"]
+        self.assertFalse(np.array_equal(a, b))
+        self.assertLess(np.abs(a - b).max(), 2e-3)
+        fast.run(0)
+
+
+class Refused(unittest.TestCase):
+    def check(self, text, call, error=ValueError):
+        with self.assertRaisesRegex(error, text):
+            call()
+
+    def test_arguments(self):
+        envs = gaitlab.start(hexapod(), 2)
+        joints = len(envs.joints)
+        good = np.zeros((2, joints))
+        self.check(rf"action has the shape \(2, {joints + 1}\); expected \(2, {joints}\): driven joints m0/", lambda: envs.step(np.zeros((2, joints + 1))))
+        bad = good.copy()
+        bad[1, 3] = np.nan
+        self.check(r"action\[1, 3\] is nan \(joint ", lambda: envs.step(bad), gaitlab.InputError)
+        bad[1, 3] = 57.3
+        self.check(r"set point of .* is 57.3 rad.* 57.3 degrees are 1 rad", lambda: envs.step(bad), gaitlab.InputError)
+        self.check(r"reset\(mask\): expected 2 truth values, got int64 of \(3,\)", lambda: envs.reset(np.zeros(3, dtype=int)))
+        self.check("record=True", lambda: envs.run(0))
+        self.check("'leap' is unknown", lambda: gaitlab.start(hexapod(), action="leap"))
+        self.check("expected 'fall'", lambda: gaitlab.start(hexapod(), terminate="falls"))
+        self.check("2 rows for 3 environments", lambda: gaitlab.start(hexapod(), 3, overrides=[{}, {}]))
+        self.check(r"overrides\[1\]: changes physics", lambda: gaitlab.start(hexapod(), overrides=[{}, {"physics.step": 1e-4}]), gaitlab.InputError)
+        self.check(r"overrides\[1\].*ground.frction", lambda: gaitlab.start(hexapod(), overrides=[{}, {"ground.frction": 1}]), gaitlab.InputError)
+        self.check("fast=True needs engine articulated", lambda: gaitlab.start(gaitlab.Scenario("caterpillar", {"physics.engine": "bullet"}), fast=True), gaitlab.InputError)
+        for _ in range(110):
+            if "" not in list(envs.ended):
+                break
+            envs.step(good)
+        self.check("all 2 environments have ended", lambda: envs.step(good))
+
+
+if __name__ == "__main__":
+    unittest.main()
