@@ -33,7 +33,6 @@ class Bits(unittest.TestCase):
             envs.step(row[None, :])
         self.assertEqual(envs.ended[0], "done")
         again = envs.run(0)
-        self.assertTrue(np.array_equal(again.trace.values[:, 1:], expected.trace.values[:, 1:][:, : again.trace.values.shape[1] - 1]) or True)
         for name in expected.trace.names:
             if not name.startswith("cpg."):
                 self.assertTrue(np.array_equal(again.trace[name], expected.trace[name]), name)
