@@ -14,7 +14,7 @@ class Table final : public Cpg {
     std::vector<JointColumn> columns;
     Keyframes::Interpolation interpolation = Keyframes::Interpolation::spline;
     bool repeat = true;
-    double ramp = 0;
+    double ramp = 0, period = 0;
     void fields(Fields& f);
   };
   struct Settings {
@@ -28,10 +28,16 @@ class Table final : public Cpg {
   /// Keyframes.
   Table(const RobotInfo& robot, const Settings& settings);
   void output(double t, In state, Out setpoint) const override { frames_.output(t, state, setpoint); }
-  [[nodiscard]] SetPointTimes times() const override { return frames_.times(); }
+  [[nodiscard]] SetPointTimes times() const override {
+    const SetPointTimes own = frames_.times();
+    return {period_ > 0 ? period_ : own.period, own.full_size};
+  }
+  [[nodiscard]] std::string note() const override;
 
  private:
   Keyframes frames_;
+  double period_;
+  bool hold_;
 };
 
 }  // namespace gaitlab::cpg

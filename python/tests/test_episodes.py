@@ -20,7 +20,7 @@ def hexapod(**more):
 
 def set_points(run):
     """Set points by control tick, from the poses of a run."""
-    joints = len([name for name in run.poses.names if name.endswith(".setpoint")])
+    joints = len([name for name in run.poses.columns if name.endswith(".setpoint")])
     return np.array([run.poses[f"joint.{j}.setpoint"][1:] for j in range(joints)]).T
 
 
@@ -33,7 +33,7 @@ class Bits(unittest.TestCase):
             envs.step(row[None, :])
         self.assertEqual(envs.ended[0], "done")
         again = envs.run(0)
-        for name in expected.trace.names:
+        for name in expected.trace.columns:
             if not name.startswith("cpg."):
                 self.assertTrue(np.array_equal(again.trace[name], expected.trace[name]), name)
         left = {"cpg", "rests_on"}
