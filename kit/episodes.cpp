@@ -388,7 +388,8 @@ void Episodes::restore(const std::string& bytes) {
   std::ranges::copy(truth, truth_.begin());
 }
 
-std::vector<std::string> recorded_settings(const Scenario& s, const std::vector<double>& set_points, const Initial& start) {
+std::vector<std::string> recorded_settings(const Scenario& s, const std::vector<double>& set_points, const Initial& start,
+                                           double period) {
   constexpr std::size_t kMost = 40000;  // numbers; a YAML text has at most 1 MB
   const auto refuse_set_points = [](const std::string& what) { throw InputError(SourceLocation{"run"}, what); };
   const std::size_t joints = s.robot->joints.size();
@@ -417,7 +418,8 @@ std::vector<std::string> recorded_settings(const Scenario& s, const std::vector<
   }
   const auto list = [](const auto& numbers) { return fmt::format("[{}]", fmt::join(numbers, ", ")); };
   const auto vector = [&](const Vec3& v) { return list(std::vector<double>(v.data(), v.data() + 3)); };
-  return {fmt::format("cpg={{type: table, model: {{interpolation: hold, repeat: false, file: \"{}\\n\"}}}}", table),
+  return {fmt::format("cpg={{type: table, model: {{interpolation: hold, repeat: false, period: {}, file: \"{}\\n\"}}}}", period,
+                      table),
           fmt::format("initial={{angles: {}, speeds: {}, base_velocity: {}, base_angular_velocity: {}}}",
                       list(numbers_of(start.angles, joints)), list(numbers_of(start.speeds, joints)),
                       vector(start.base_velocity), vector(start.base_angular_velocity)),

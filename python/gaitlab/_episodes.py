@@ -156,16 +156,16 @@ class Episodes:
         self._running = any(not one for one in self._native.ended())
         return self._out()
 
-    def run(self, i: int = 0) -> Run:
+    def run(self, i: int = 0, *, period: float = 0) -> Run:
         """The episode of environment i so far as a Run, with page and verdict: its set points, simulated again as `gaitlab run` does.
 
         Needs record=True. The run has the bits of the episode, or RunError is raised. With fast=True it is simulated with the
         integrator of the scenario instead, and differs from the episode by the error of its steps. The judgement is that of a
-        recording: no feedback acts in the run.
+        recording: no feedback acts in the run. period: of the motion, s, if it repeats; windows of the verdict follow it.
         """
         if not self._record:
             raise ValueError("run(i) needs the set points of the episode: start(..., record=True)")
-        made = _native.simulate(self._native.recorded(self._index(i)), None, True)
+        made = _native.simulate(self._native.recorded(self._index(i), float(period)), None, True)
         if not self._native.fast:
             self._native.check_end(self._index(i), made)
         run = Run(made)

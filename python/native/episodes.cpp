@@ -137,8 +137,8 @@ void restart(PyEpisodes& episodes, const std::vector<std::size_t>& which, const 
 }
 
 /// The scenario whose set points are those of an environment since its start.
-std::shared_ptr<PyScenario> recorded(const PyEpisodes& episodes, std::size_t i) {
-  Texts sets = kit::recorded_settings(episodes.all->scenario(i), episodes.all->set_points(i), episodes.all->start(i));
+std::shared_ptr<PyScenario> recorded(const PyEpisodes& episodes, std::size_t i, double period) {
+  Texts sets = kit::recorded_settings(episodes.all->scenario(i), episodes.all->set_points(i), episodes.all->start(i), period);
   const PyScenario before{episodes.file, episodes.own[i], {}};
   return with_sets(before, sets);
 }
@@ -207,7 +207,7 @@ void add_episodes(py::module_& m) {
       .def("snapshot", [](const PyEpisodes& e) { return py::bytes(e.all->snapshot()); })
       .def(
           "restore", [](PyEpisodes& e, const std::string& bytes) { e.all->restore(bytes); }, py::arg("snapshot"))
-      .def("recorded", &recorded, py::arg("which"))
+      .def("recorded", &recorded, py::arg("which"), py::arg("period"))
       .def("check_end", &check_end, py::arg("which"), py::arg("run"));
   m.def("start", &start, py::arg("scenario"), py::arg("overrides"), py::arg("action"), py::arg("every"), py::arg("threads"),
         py::arg("lanes"), py::arg("fast"), py::arg("record"));
