@@ -4,13 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <utility>
 
 #include "core/build_id.h"
 #include "core/errors.h"
 #include "core/files/hash.h"
-#include "core/model/pattern.h"
 #include "core/parallel.h"
 #include "core/plugin/plugin_instance.h"
 #include "core/scenario/built_robot.h"
@@ -19,6 +17,7 @@
 #include "core/scenario/sensor_section.h"
 #include "core/simulation/batch.h"
 #include "core/simulation/start.h"
+#include "kit/bytes.h"
 
 namespace gaitlab::kit {
 
@@ -59,73 +58,17 @@ std::vector<EpisodeColumn> columns_of_truth(const std::vector<Leg>& legs) {
   return columns;
 }
 
-// --- bytes of a snapshot ---
-
-void put(std::string& to, const std::vector<double>& numbers) {
-  const std::uint64_t count = numbers.size();
-  to.append(reinterpret_cast<const char*>(&count), sizeof count);
-  to.append(reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(double));
-}
-
-void put(std::string& to, const std::string& text) {
-  const std::uint64_t count = text.size();
-  to.append(reinterpret_cast<const char*>(&count), sizeof count);
-  to += text;
-}
-
-[[noreturn]] void refuse(const std::string& what) { throw InputError(SourceLocation{"snapshot"}, what); }
-
-/// Reader of such bytes. Throws InputError for other sizes than the expected ones.
-class Bytes {
- public:
-  explicit Bytes(std::string_view bytes) : rest_(bytes) {}
-  std::vector<double> numbers(std::size_t expected) {
-    if (take_count(sizeof(double)) != expected) refuse("does not fit these environments");
-    std::vector<double> all(expected);
-    take(all.data(), expected * sizeof(double));
-    return all;
-  }
-  /// Numbers in whole rows of `row`.
-  std::vector<double> rows(std::size_t row) {
-    std::vector<double> all(take_count(sizeof(double)));
-    if (all.size() % row != 0) refuse("does not fit these environments");
-    take(all.data(), all.size() * sizeof(double));
-    return all;
-  }
-  std::string text() {
-    std::string all(take_count(1), '\0');
-    take(all.data(), all.size());
-    return all;
-  }
-
- private:
-  std::size_t take_count(std::size_t size) {
-    std::uint64_t count = 0;
-    if (rest_.size() < sizeof count) refuse("ends too early");
-    take(&count, sizeof count);
-    if (count > rest_.size() / size) refuse("ends too early");
-    return count;
-  }
-  void take(void* to, std::size_t bytes) {
-    std::memcpy(to, rest_.data(), bytes);
-    rest_.remove_prefix(bytes);
-  }
-  std::string_view rest_;
-};
-
-std::vector<double> numbers_of(const PerJoint& values, std::size_t joints) {
-  std::vector<double> all;
-  for (std::size_t j = 0; j < joints; ++j) all.push_back(values[j]);
-  return all;
-}
-
+/// Angles, speeds and velocities of a start.
 std::vector<double> numbers_of(const Initial& start, std::size_t joints) {
-  std::vector<double> all = numbers_of(start.angles, joints);
-  const std::vector<double> speeds = numbers_of(start.speeds, joints);
-  all.insert(all.end(), speeds.begin(), speeds.end());
+  std::vector<double> all;
+  for (const PerJoint* values : {&start.angles, &start.speeds}) {
+    for (std::size_t j = 0; j < joints; ++j) all.push_back((*values)[j]);
+  }
   for (const Vec3& v : {start.base_velocity, start.base_angular_velocity}) all.insert(all.end(), v.data(), v.data() + 3);
   return all;
 }
+
+[[noreturn]] void refuse(const std::string& what) { throw InputError(SourceLocation{"snapshot"}, what); }
 
 }  // namespace
 
@@ -337,7 +280,7 @@ std::string Episodes::snapshot() const {
   return head() + hash_words(body) + "\n" + body;
 }
 
-void Episodes::restore(const std::string& bytes) {
+void Episodes::restore(const std::string& bytes) try {
   const std::string own = head();
   const std::size_t line = bytes.find('\n');
   if (line == std::string::npos || !bytes.starts_with("gaitlab snapshot, ")) refuse("expected the bytes of snapshot()");
@@ -386,44 +329,8 @@ void Episodes::restore(const std::string& bytes) {
   }
   std::ranges::copy(observations, observations_.begin());
   std::ranges::copy(truth, truth_.begin());
-}
-
-std::vector<std::string> recorded_settings(const Scenario& s, const std::vector<double>& set_points, const Initial& start,
-                                           double period) {
-  constexpr std::size_t kMost = 40000;  // numbers; a YAML text has at most 1 MB
-  const auto refuse_set_points = [](const std::string& what) { throw InputError(SourceLocation{"run"}, what); };
-  const std::size_t joints = s.robot->joints.size();
-  const std::size_t rows = set_points.size() / joints;
-  if (rows == 0) refuse_set_points("the episode has no set points; expected at least one step with record=True");
-  if (set_points.size() > kMost) {
-    refuse_set_points(fmt::format("the episode has {} set points; a scenario contains at most {}: end it after {:.4g} s",
-                                  set_points.size(), kMost, static_cast<double>(kMost / joints) * s.control_period));
-  }
-  for (const Change& change : s.changes) {
-    const auto of_cpg = [](const auto& key) { return key.first == "cpg" || key.first.starts_with("cpg."); };
-    if (std::ranges::any_of(change.set.keys, of_cpg))
-      refuse_set_points(
-          fmt::format("the CPG changes at {} s (section `at`); set points that are recorded replace it", change.t));
-  }
-  std::string table = "time";
-  for (std::size_t j = 0; j < joints; ++j) {
-    if (s.robot->joints[j].driven()) table += "," + s.robot->joints[j].name;
-  }
-  // The last set points hold for a period; a table of one row needs a second one.
-  for (std::size_t k = 0; k <= rows; ++k) {
-    table += fmt::format("\\n{}", static_cast<double>(k) * s.control_period);
-    for (std::size_t j = 0; j < joints; ++j) {
-      if (s.robot->joints[j].driven()) table += fmt::format(",{}", set_points[std::min(k, rows - 1) * joints + j]);
-    }
-  }
-  const auto list = [](const auto& numbers) { return fmt::format("[{}]", fmt::join(numbers, ", ")); };
-  const auto vector = [&](const Vec3& v) { return list(std::vector<double>(v.data(), v.data() + 3)); };
-  return {fmt::format("cpg={{type: table, model: {{interpolation: hold, repeat: false, period: {}, file: \"{}\\n\"}}}}", period,
-                      table),
-          fmt::format("initial={{angles: {}, speeds: {}, base_velocity: {}, base_angular_velocity: {}}}",
-                      list(numbers_of(start.angles, joints)), list(numbers_of(start.speeds, joints)),
-                      vector(start.base_velocity), vector(start.base_angular_velocity)),
-          fmt::format("duration={}", std::min(s.duration, static_cast<double>(rows) * s.control_period))};
+} catch (const BadBytes& error) {
+  refuse(std::string("its numbers ") + error.what());
 }
 
 }  // namespace gaitlab::kit

@@ -1,4 +1,4 @@
-// Sensor `load`: normal force on modules and bodies.
+// Sensor `load`: normal force on modules, bodies, joints and legs.
 #pragma once
 #include "sensors/channel_bank.h"
 
@@ -9,7 +9,7 @@ class LoadSensor final : public Sensor {
  public:
   struct Settings : ChannelKeys {
     Settings() : ChannelKeys(kNewton) {}
-    std::vector<std::string> modules{"*"}, bodies;
+    std::vector<std::string> joints, legs, modules{"*"}, bodies;
     double touch = 1, release = 0.5;  ///< N
     void fields(Fields& f);
   };
@@ -25,10 +25,17 @@ class LoadSensor final : public Sensor {
 
  private:
   double touch_, release_;
-  std::size_t modules_ = 0;              ///< number of channels that measure modules
-  std::vector<std::size_t> parts_;       ///< module or body of each channel
-  std::vector<SensorReading> readings_;  ///< loads of modules and bodies, then contact of the modules
-  ChannelBank channels_;                 ///< the modules, then the bodies
+  enum class Of { module, body, joint, leg };
+  struct Part {
+    Of of;
+    std::size_t number;
+  };
+  std::size_t modules_ = 0;                       ///< number of channels that measure modules, which are the first
+  std::vector<Part> parts_;                       ///< by channel
+  std::vector<std::vector<std::size_t>> bodies_;  ///< of each leg
+  mutable std::vector<double> leg_load_;          ///< scratch
+  std::vector<SensorReading> readings_;           ///< loads by channel, then contact of the modules
+  ChannelBank channels_;
 };
 
 }  // namespace gaitlab::sensors

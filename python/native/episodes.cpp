@@ -13,6 +13,7 @@
 #include "core/scenario/other_engine.h"
 #include "core/scenario/sections.h"
 #include "kit/episodes.h"
+#include "kit/recorded_settings.h"
 #include "python/native/apart.h"
 #include "python/native/run.h"
 #include "python/native/scenario.h"
