@@ -6,6 +6,7 @@
 #include "cpg/kuramoto_amplitude.h"
 #include "cpg/legs.h"
 #include "cpg/matsuoka.h"
+#include "cpg/network.h"
 #include "cpg/phase_oscillator.h"
 #include "cpg/sine.h"
 #include "cpg/snake.h"
@@ -22,6 +23,7 @@ void register_cpgs(Registry& registry) {
   add_cpg<KuramotoAmplitude>(registry, "kuramoto_amplitude", KuramotoAmplitude::kManual);
   add_cpg<Legs>(registry, "legs", Legs::kManual);
   add_cpg<Matsuoka>(registry, "matsuoka", Matsuoka::kManual);
+  add_cpg<Network>(registry, "network", Network::kManual);
   add_cpg<PhaseOscillator>(registry, "phase_oscillator", PhaseOscillator::kManual);
   add_cpg<Sine>(registry, "sine", Sine::kManual);
   add_cpg<Snake>(registry, "snake", Snake::kManual);

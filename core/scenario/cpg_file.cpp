@@ -56,8 +56,24 @@ void check_range(const Node& value, const CpgParameter& parameter, Problems& pro
   }
 }
 
+/// The section with the model of a file that names a type of CPG.
+Node with_model(const Node& section, const CpgFile& file, Problems& problems) {
+  Node made{Node::Kind::map, section.place};
+  for (std::size_t i = 0; i < section.items.size(); ++i) {
+    const auto& [key, place] = section.keys[i];
+    if (key == "model") {
+      problems.add(place, fmt::format("model is stated by {}", in_quotes(file.path)));
+    } else {
+      put(made, key, key == "type" ? *file.text.find("type") : section.items[i]);
+    }
+  }
+  put(made, "model", *file.text.find("model"));
+  return made;
+}
+
 /// The section of type `equations` that means the same as `section`.
 Node expanded(const Node& section, const CpgFile& file, Problems& problems) {
+  if (file.text.find("type") != nullptr) return with_model(section, file, problems);
   Node made{Node::Kind::map, section.place};
   Node model{Node::Kind::map, section.place};
   std::vector<Node> values;
@@ -113,9 +129,18 @@ std::optional<CpgFile> read_cpg_file(const std::string& path, const SourceLocati
   std::string name;
   reader.text("name", name, "");
   reader.text("manual", file.manual, "");
-  reader.by_name("parameters", file.parameters, "sigma", "");
-  for (const char* const part : kParts) reader.take(part);
-  reader.require({"gaitlab_cpg", "states", "output"});
+  if (file.text.find("type") != nullptr) {
+    std::string type;
+    reader.text("type", type, "");
+    const Node* const model = reader.take("model");
+    if (model != nullptr && model->kind != Node::Kind::map)
+      problems.add(model->place, fmt::format("model is {}; expected a map", found(*model)));
+    reader.require({"gaitlab_cpg", "model"});
+  } else {
+    reader.by_name("parameters", file.parameters, "sigma", "");
+    for (const char* const part : kParts) reader.take(part);
+    reader.require({"gaitlab_cpg", "states", "output"});
+  }
   reader.finish();
   if (problems.size() > before) return {};
   return file;

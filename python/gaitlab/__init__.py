@@ -13,6 +13,7 @@ from ._native import InputError, RunError, build
 from ._cpg import Joint, cpg
 from ._episodes import Column, Episodes, Truth, start
 from ._evaluator import Evaluator
+from ._policy import Policy
 from ._rollouts import Rollouts, quantities, rollouts
 from ._run import Run, read, run
 from ._scenario import Check, Scenario
@@ -34,6 +35,7 @@ __all__ = [
     "Evaluator",
     "InputError",
     "Joint",
+    "Policy",
     "Rollouts",
     "Run",
     "RunError",

@@ -77,6 +77,11 @@ class Episodes:
         self._begin(np.ones(n, dtype=bool))
 
     @property
+    def observations(self) -> Array:
+        """The present observations, as step() and reset() return them."""
+        return self._out()
+
+    @property
     def ended(self) -> Array:
         """Per environment "" while it runs, or `done` (its time is over), `diverged`, `plugin` (which raised) or `stopped` (by
         `terminate`)."""

@@ -2,6 +2,7 @@
 import gc
 import json
 import multiprocessing
+import os
 import resource
 import unittest
 
@@ -160,6 +161,47 @@ class Rows(unittest.TestCase):
         self.assertFalse(np.array_equal(a, b))
         self.assertLess(np.abs(a - b).max(), 2e-3)
         fast.run(0)
+
+
+class Policies(InFolder):
+    def policy(self, envs, joints):
+        random = np.random.default_rng(4)
+        inputs = ["angle.*", "speed.*", "load.*", "imu.roll", "previous.*", "clock.sin", "clock.cos"]
+        width = 3 * len(hexapod().joints) + 1 + joints + 2
+        layers = [(0.3 * random.standard_normal((16, width)), 0.1 * random.standard_normal(16), "tanh"),
+                  (0.3 * random.standard_normal((joints, 16)), np.zeros(joints), "elu")]
+        return gaitlab.Policy(envs, layers, inputs=inputs, mean=0.01, deviation=2.0, centre=0.02, scale=0.2, frequency=0.7)
+
+    def test_a_policy_becomes_a_cpg(self):
+        scenario = hexapod(**{"sensors": {"imu": {"type": "imu", "body": "m0/active"}}})
+        envs = scenario.start()
+        policy = self.policy(envs, len(envs.joints))
+        policy.save("policy.yaml")
+        saved = scenario.with_({"cpg": {"type": os.path.abspath("policy.yaml"), "frequency": 0.7}})
+        self.assertIn("type: network", saved.resolved)
+        run = gaitlab.run(saved)
+        first = policy.act()
+        network = np.array([run.poses[f"joint.{scenario.joints.index(name)}.setpoint"][1] for name in envs.joints])
+        self.assertLess(np.abs(first[0] - network).max(), 1e-12)
+        for _ in range(20):
+            envs.step(policy.act())
+        at = list(run.poses["t"]).index(envs.truth["time"][0])
+        self.assertLess(abs(run.poses["base.z"][at] - envs.truth["base.position"][0, 2]), 1e-6)
+        # The network of the scenario, stepped by residuals of 0, is the run, bit for bit.
+        stepped = saved.start(action="residual")
+        for k in range(40):
+            self.assertEqual(stepped.truth["base.position"][0, 0], run.poses["base.x"][k])
+            stepped.step(np.zeros((1, len(stepped.joints))))
+
+    def test_refused(self):
+        envs = hexapod().start()
+        joints = len(envs.joints)
+        good = (np.zeros((joints, 1)), np.zeros(joints), "tanh")
+        for text, layers, inputs in (("'imu.roll' is no column", [good], ["imu.roll"]), ("expected \\(outputs, 1\\)", [(np.zeros((joints, 2)), np.zeros(joints), "tanh")], ["clock.sin"]),
+                                     ("the robot has", [(np.zeros((1, 1)), np.zeros(1), "tanh")], ["clock.sin"]), ("not finite", [(np.full((joints, 1), np.nan), np.zeros(joints), "tanh")], ["clock.sin"]),
+                                     ("'cos' of layer 0 is unknown", [(*good[:2], "cos")], ["clock.sin"])):
+            with self.assertRaisesRegex(ValueError, text):
+                gaitlab.Policy(envs, layers, inputs=inputs)
 
 
 class Refused(unittest.TestCase):
