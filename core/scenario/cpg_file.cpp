@@ -19,7 +19,7 @@ namespace {
 
 constexpr const char* kEquations = "equations";
 /// Parts of the model that a file states; `parameters` become those of the file.
-constexpr std::array kParts{"states", "initial", "output", "inputs", "events"};
+constexpr std::array kModelParts{"states", "initial", "output", "inputs", "events"};
 
 Node scalar(std::string text, const SourceLocation& place) {
   Node node{Node::Kind::scalar, place};
@@ -88,7 +88,8 @@ Node expanded(const Node& section, const CpgFile& file, Problems& problems) {
     } else if (key == "model" && value.kind == Node::Kind::map) {
       for (std::size_t k = 0; k < value.items.size(); ++k) {
         const auto& [part, at] = value.keys[k];
-        if (part == "parameters" || (std::ranges::find(kParts, part) != kParts.end() && file.text.find(part) != nullptr)) {
+        if (part == "parameters" ||
+            (std::ranges::find(kModelParts, part) != kModelParts.end() && file.text.find(part) != nullptr)) {
           problems.add(at, fmt::format("model.{} is stated by {}{}", part, in_quotes(file.path),
                                        part == "parameters" ? "; its parameters are keys of cpg" : ""));
         } else {
@@ -102,7 +103,7 @@ Node expanded(const Node& section, const CpgFile& file, Problems& problems) {
   Node parameters{Node::Kind::map, section.place};
   for (std::size_t k = 0; k < values.size(); ++k) put(parameters, file.parameters[k].name, std::move(values[k]));
   if (!parameters.items.empty()) put(model, "parameters", std::move(parameters));
-  for (const char* const part : kParts) {
+  for (const char* const part : kModelParts) {
     if (const Node* const stated = file.text.find(part)) put(model, part, *stated);
   }
   put(made, "model", std::move(model));
@@ -138,7 +139,7 @@ std::optional<CpgFile> read_cpg_file(const std::string& path, const SourceLocati
     reader.require({"gaitlab_cpg", "model"});
   } else {
     reader.by_name("parameters", file.parameters, "sigma", "");
-    for (const char* const part : kParts) reader.take(part);
+    for (const char* const part : kModelParts) reader.take(part);
     reader.require({"gaitlab_cpg", "states", "output"});
   }
   reader.finish();

@@ -22,7 +22,7 @@ _ACTIVATIONS = {
 
 
 class Policy:
-    """A feed-forward network for environments: `envs.step(policy.act())`, then `policy.save("policy.yaml")`.
+    """A feed-forward network for environments: `envs.step(policy.act())`, then `scenario.with_({"cpg": {"type": policy.save("policy.yaml")}})`.
 
     envs: the Episodes that it acts in, stepped by set points.
     layers: (weights, bias, activation) per layer, from the inputs to the outputs; activations tanh, relu, elu, none. The last layer has
@@ -89,8 +89,8 @@ class Policy:
         self.previous = z
         return self.centre + self.scale * z
 
-    def save(self, path: Union[str, "os.PathLike[str]"]) -> None:
-        """Writes a file for `cpg: {type: ./policy.yaml, frequency: F}`."""
+    def save(self, path: Union[str, "os.PathLike[str]"]) -> str:
+        """Writes a file for `cpg: {type: ./policy.yaml, frequency: F}`. Returns its absolute path."""
         joints = self._envs.joints
         model = {
             "inputs": self.inputs,
@@ -105,3 +105,4 @@ class Policy:
         lines += [f"  {key}: {json.dumps(value)}" for key, value in model.items()]
         with open(path_text(path), "w", encoding="utf-8") as file:
             file.write("\n".join(lines) + "\n")
+        return os.path.abspath(path_text(path))
