@@ -15,10 +15,9 @@ const char* const Table::kManual =
     h = t_k+1 - t_k,  b = (t - t_k) / h,  a = 1 - b;  for t < ramp: y_0 + (t / ramp) (theta(t) - y_0)
 
 y: the rows; M, interpolation, repeat and ramp: as in gait keyframes (gaitlab explain cpg keyframes). The first line names the
-columns: `time` (or `t`; s, rising from 0) first, then joints by name or number (rad). Lines that begin with # and empty lines
-are skipped. A log of another program has other columns: `time` and `columns` name those to take. With repeat the last row must
-equal the first. `file` is a path relative to the scenario, or the text itself, in
-several lines; the resolved scenario holds the text. For a gait that was computed elsewhere, or measured.
+columns: `time` (or `t`; s, from 0 upwards), then joints by name or number (rad). Empty lines and lines that begin with # are
+skipped. For a log of another program, `time` and `columns` say which columns to take. With repeat, the last row must equal the
+first. `file` is a path relative to the scenario, or the text itself in several lines; the resolved scenario contains the text.
 Reference: C. de Boor, A Practical Guide to Splines, Springer 1978, chapter IV.
 
     cpg:

@@ -59,7 +59,7 @@ double standing_depth(const Scenario& s) {
   while (press(s, elements, k, hi).force < weight && hi < 1) hi *= 2;
   if (press(s, elements, k, hi).force < weight) {
     throw InputError(s.place("contact.stiffness"),
-                     fmt::format("{} does not carry the robot: its weight is {:.3g} N; expected stiffer contacts, or --strict",
+                     fmt::format("{} N/m is too soft to carry the robot of {:.3g} N; expected stiffer contacts, or --strict",
                                  number_text(s.contact.penalty.kn), weight));
   }
   for (int i = 0; i < kHalvings; ++i) {

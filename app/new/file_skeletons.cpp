@@ -52,9 +52,9 @@ faces:                                 # where modules dock
   - {id: 1, body: head, gender: none, origin: [0.04, 0, 0], normal: [1, 0, 0], reference: [0, 1, 0]}
 
 contacts:
-  all: shapes                          # elements that touch the ground: the vertices of boxes; or a list of points and spheres
+  all: shapes                          # what touches the ground: the corners of the boxes, or a list of points and spheres
 
-may_overlap: [[base, head]]            # boxes that meet at the hinge overlap as soon as it bends: remove this for real shapes
+may_overlap: [[base, head]]            # the boxes meet at the hinge and overlap when it bends; delete this line for real shapes
 )";
 
 const char* const kSkeletonScenario =

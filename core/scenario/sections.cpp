@@ -222,8 +222,8 @@ void Limits::fields(Fields& f) {
             "start pose, on the ground, and in the pose of the set points. Default: our choice."});
   f.number("tilt", tilt,
            {"rad", kPositive, 4,
-            "Tilt of the robot from its start above which the verdict warns (below the horizontal it fails, unless the base "
-            "rolls). Default: 60 degrees, our choice."});
+            "Largest allowed tilt of the robot from its orientation at the start; a larger one is a warning, one beyond the "
+            "horizontal a failure, unless the base rolls. Default: 60 degrees, our choice."});
   f.number(
       "beyond_range", beyond_range,
       {"rad", 0, 100,

@@ -29,8 +29,8 @@ std::vector<CheckKind> checks::collision() {
                             found->pairs == 1 ? "es" : "", one.name, other.name, texts::length(found->depth));
   };
   return {{"collision", CheckGroup::structure, "m", "Bodies keep apart",
-           fmt::format("deepest overlap of two bodies at control ticks; if both belong to one module, only the part beyond "
-                       "{:.3g} times their overlap with all hinges at 0; pairs in may_overlap are left out",
+           fmt::format("deepest overlap of two bodies at control ticks, without pairs in may_overlap; two bodies of one module "
+                       "may overlap by {:.3g} times as much as with all hinges at 0",
                        kTurned),
            "above limits.collision", "above limits.touch", CheckSpan::whole_run, "robot",
            "smaller amplitudes or offsets, or may_overlap for bodies whose shapes are rougher than the real ones", judge, false,
