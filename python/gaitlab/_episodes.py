@@ -73,7 +73,8 @@ class Episodes:
         """Names and units of the columns of an observation."""
         self.joints: list[str] = native.driven
         """Joints with a motor: the columns of each part of an action."""
-        self._parts = native.parts
+        self.parts: list[str] = native.parts
+        """The parts of an action: `setpoint`, `residual` or `command`."""
         self._begin(np.ones(n, dtype=bool))
 
     @property
@@ -106,9 +107,9 @@ class Episodes:
         """Simulates `every` control ticks under these actions (n x joints, or as many columns for each part of `action`), and returns
         the observations: what a controller measures at the tick, with the noise and delays of the sensors."""
         given = np.asarray(action, dtype=np.float64)
-        expected = (self.n, len(self._parts) * len(self.joints))
+        expected = (self.n, len(self.parts) * len(self.joints))
         if given.shape != expected:
-            parts = "" if self._parts == ["setpoint"] else " for each of " + ", ".join(self._parts)
+            parts = "" if self.parts == ["setpoint"] else " for each of " + ", ".join(self.parts)
             raise ValueError(f"action has the shape {given.shape}; expected {expected}: driven joints {', '.join(self.joints)}{parts}")
         if not self._running:
             raise ValueError(f"step after the end: all {self.n} environments have ended; reset()")
