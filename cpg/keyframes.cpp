@@ -183,7 +183,9 @@ void Keyframes::curve() {
 void Keyframes::output(double t, In, Out setpoint) const {
   const double end = time_.back();
   const double at = std::clamp(repeat_ ? t - end * std::floor(t / end) : t, 0.0, end);
-  const auto next = std::upper_bound(time_.begin() + 1, hold_ ? time_.end() : time_.end() - 1, at);
+  constexpr double kRounding = 1e-9;  // s; the time of a control tick as a sum of steps may be below the same time in a table
+  const auto next = hold_ ? std::upper_bound(time_.begin() + 1, time_.end(), at + kRounding)
+                          : std::upper_bound(time_.begin() + 1, time_.end() - 1, at);
   const auto k = static_cast<std::size_t>(next - time_.begin()) - 1;
   if (hold_) {
     std::copy_n(angle_.begin() + static_cast<std::ptrdiff_t>(k * joints_), joints_, setpoint.begin());
