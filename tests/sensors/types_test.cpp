@@ -31,7 +31,7 @@ class Bench {
   explicit Bench(const typename T::Settings& settings)
       : sensor({robot, "s", 1, kTick}, settings), state(sensor.states(), NAN), values(sensor.readings().size(), NAN) {}
   const std::vector<double>& tick() {
-    sensor.sense({now++, angle, speed, torque, current, module_load, body_load, {&motion, 1}}, state, values);
+    sensor.sense({now++, angle, speed, torque, current, module_load, body_load, load, {&motion, 1}}, state, values);
     return values;
   }
   [[nodiscard]] double operator[](const std::string& column) const {
@@ -42,7 +42,8 @@ class Bench {
   }
 
   const RobotInfo robot = two();
-  std::vector<double> angle{0.1, 0.2}, speed{3, 4}, torque{5, 6}, current{7, 8}, module_load{9, 10}, body_load{1, 8, 4, 6};
+  std::vector<double> angle{0.1, 0.2}, speed{3, 4}, torque{5, 6}, current{7, 8}, module_load{9, 10}, body_load{1, 8, 4, 6},
+      load{8, 6};
   BodyMotion motion;
   T sensor;
   std::vector<double> state, values;
@@ -108,6 +109,30 @@ TEST(Load, TouchesWithHysteresis) {
 
 void set_rotation(BodyMotion& motion, const Mat3& R) {
   for (Eigen::Index i = 0; i < 9; ++i) motion.rotation[static_cast<std::size_t>(i)] = R(i / 3, i % 3);
+}
+
+TEST(LoadSensor, MeasuresJointsAndLegs) {
+  LoadSensor::Settings settings;
+  settings.modules.clear();
+  settings.joints = {"m1/*"};
+  Bench<LoadSensor> bench(settings);
+  EXPECT_EQ(bench.tick(), (std::vector<double>{6}));
+  EXPECT_EQ(bench.sensor.readings()[0].column, "sensor.s.m1/h");
+  EXPECT_EQ(bench.sensor.readings()[0].replaces, Replaces::load);
+  EXPECT_EQ(bench.sensor.readings()[0].part, 1U);
+
+  RobotInfo robot = two();
+  robot.legs.push_back({.name = "front", .joints = {0}, .bodies = {1, 3}});
+  settings.joints.clear();
+  settings.legs = {"f*"};
+  const LoadSensor legs({robot, "feet", 1, kTick}, settings);
+  std::vector<double> state(legs.states()), values(legs.readings().size());
+  const std::vector<double> of_bodies{1, 8, 4, 6}, none(2);
+  legs.sense({0, none, none, none, none, none, of_bodies, none, {}}, state, values);
+  EXPECT_EQ(values, (std::vector<double>{14}));
+  EXPECT_EQ(legs.readings()[0].name, "feet.front");
+  settings.legs = {"rear"};
+  EXPECT_THROW(LoadSensor({robot, "feet", 1, kTick}, settings), SettingError);
 }
 
 TEST(Imu, MeasuresInTheAxesOfTheBody) {
