@@ -251,6 +251,8 @@ void Episodes::restart(std::span<const std::size_t> which, std::span<const Initi
   }
 }
 
+bool Episodes::running() const { return std::ranges::find(ended_, char{0}) != ended_.end(); }
+
 std::string Episodes::ended(std::size_t i) const { return ended_[i] == 0 ? "" : name_of(outcomes_[i].ended); }
 
 /// First line of a snapshot: what it fits.

@@ -69,6 +69,7 @@ class Episodes {
   /// A row per environment.
   [[nodiscard]] In observations() const { return observations_; }
   [[nodiscard]] In truth() const { return truth_; }
+  [[nodiscard]] bool running() const;  ///< true if an environment has not ended
   /// "" for an environment that has not ended, else `done`, `diverged`, `plugin` or `stopped`.
   [[nodiscard]] std::string ended(std::size_t i) const;
   /// Reason of the end, with step and time; "" before the end and after `done`.
