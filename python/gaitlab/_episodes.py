@@ -75,6 +75,7 @@ class Episodes:
         """Joints with a motor: the columns of each part of an action."""
         self.parts: list[str] = native.parts
         """The parts of an action: `setpoint`, `residual` or `command`."""
+        self._shape = (n, len(self.parts) * len(self.joints))
         self._begin(np.ones(n, dtype=bool))
 
     @property
@@ -107,17 +108,17 @@ class Episodes:
         """Simulates `every` control ticks under these actions (n x joints, or as many columns for each part of `action`), and returns
         the observations: what a controller measures at the tick, with the noise and delays of the sensors."""
         given = np.asarray(action, dtype=np.float64)
-        expected = (self.n, len(self.parts) * len(self.joints))
+        expected = self._shape
         if given.shape != expected:
             parts = "" if self.parts == ["setpoint"] else " for each of " + ", ".join(self.parts)
             raise ValueError(f"action has the shape {given.shape}; expected {expected}: driven joints {', '.join(self.joints)}{parts}")
         if not self._running:
             raise ValueError(f"step after the end: all {self.n} environments have ended; reset()")
-        self._native.step(given)
+        self._running = self._native.step(given)
         if self._terminate is not None:
             for i in np.flatnonzero(self._mask(self._terminate(self.truth), "terminate(truth)")):
                 self._native.stop(int(i), "stopped by terminate")
-        self._running = any(not one for one in self._native.ended())
+            self._running = self._native.running
         return self._out()
 
     def reset(
@@ -159,7 +160,7 @@ class Episodes:
     def restore(self, snapshot: bytes) -> Array:
         """Goes back to a snapshot of the same scenarios, and returns the observations. Raises InputError for other bytes."""
         self._native.restore(snapshot)
-        self._running = any(not one for one in self._native.ended())
+        self._running = self._native.running
         return self._out()
 
     def run(self, i: int = 0, *, period: float = 0) -> Run:

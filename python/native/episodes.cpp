@@ -106,13 +106,15 @@ std::vector<std::pair<std::string, std::string>> texts_of(const std::vector<kit:
   return all;
 }
 
-void step(PyEpisodes& episodes, const Numbers& action) {
+/// Steps, and returns true if an environment has not ended.
+bool step(PyEpisodes& episodes, const Numbers& action) {
   const In actions(action.data(), static_cast<std::size_t>(action.size()));
   if (const std::string wrong = episodes.all->problem_of(actions); !wrong.empty())
     throw InputError(SourceLocation{"step"}, wrong);
   const py::gil_scoped_release released;
   const UsualArithmetic usual;
   episodes.all->step(actions);
+  return episodes.all->running();
 }
 
 /// Restarts environments. The arrays have a row per environment of `which`; None for what is as in the scenario.
@@ -162,6 +164,7 @@ void check_end(const PyEpisodes& episodes, std::size_t i, const PyRun& run) {
 void add_episodes(py::module_& m) {
   py::class_<PyEpisodes, std::shared_ptr<PyEpisodes>>(m, "Episodes")
       .def_property_readonly("fast", [](const PyEpisodes& e) { return e.fast; })
+      .def_property_readonly("running", [](const PyEpisodes& e) { return e.all->running(); })
       .def_property_readonly("driven",
                              [](const PyEpisodes& e) {
                                Texts names;
