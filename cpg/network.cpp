@@ -138,11 +138,10 @@ void Network::add_inputs(const RobotInfo& robot, const std::string& wanted) {
   if (inputs_.size() > before) return;
   std::string known;
   for (const std::string& channel : robot.channels) known += ", " + channel;
-  refuse("inputs",
-         ": '" + wanted.substr(0, 80) +
-             "' is nothing that this scenario measures; expected angle, speed, torque, load or previous with a joint, "
-             "touching with a module, clock.sin, clock.cos" +
-             (known.empty() ? std::string(", or the value of a sensor, of which it has none") : known));
+  refuse("inputs", ": '" + wanted.substr(0, 80) +
+                       "' is unknown; expected angle, speed, torque, load or previous with a joint, touching with a module, "
+                       "clock.sin, clock.cos" +
+                       (known.empty() ? std::string(", or the value of a sensor, of which it has none") : known));
 }
 
 double Network::value(const Input& input, const Measured& m, In state) const {

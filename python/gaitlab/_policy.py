@@ -54,7 +54,7 @@ class Policy:
         for pattern in self.inputs:
             found = [k for k, name in enumerate(observed + self._own) if fnmatch.fnmatchcase(name, pattern)]
             if not found:
-                raise ValueError(f"input {pattern!r} is no column of these environments, no previous.JOINT and no clock.sin or clock.cos")
+                raise ValueError(f"input {pattern!r} is unknown; expected a column of the observation, previous.JOINT, clock.sin or clock.cos")
             self._columns += found
         n, motors = len(self._columns), len(envs.joints)
         self.layers = [(np.asarray(w, dtype=np.float64), np.asarray(b, dtype=np.float64), str(a)) for w, b, a in layers]

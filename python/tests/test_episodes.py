@@ -205,7 +205,7 @@ class Policies(InFolder):
         envs = hexapod().start()
         joints = len(envs.joints)
         good = (np.zeros((joints, 1)), np.zeros(joints), "tanh")
-        for text, layers, inputs in (("'imu.roll' is no column", [good], ["imu.roll"]), ("expected \\(outputs, 1\\)", [(np.zeros((joints, 2)), np.zeros(joints), "tanh")], ["clock.sin"]),
+        for text, layers, inputs in (("input 'imu.roll' is unknown", [good], ["imu.roll"]), ("expected \\(outputs, 1\\)", [(np.zeros((joints, 2)), np.zeros(joints), "tanh")], ["clock.sin"]),
                                      ("the robot has", [(np.zeros((1, 1)), np.zeros(1), "tanh")], ["clock.sin"]), ("not finite", [(np.full((joints, 1), np.nan), np.zeros(joints), "tanh")], ["clock.sin"]),
                                      ("'cos' of layer 0 is unknown", [(*good[:2], "cos")], ["clock.sin"])):
             with self.assertRaisesRegex(ValueError, text):

@@ -194,7 +194,7 @@ TEST(CpgFiles, FaultsOfEventsAndInputs) {
   refused("{states: {phi: omega}, output: phi, events: [{when: touching, set: {phi: \"0\"}, of: \"*/hip\"}]}", "*/hip");
   refused("{states: {phi: omega}, output: limb_load}",
           "'limb_load' may not be used in the output; only in a derivative or an event");
-  refused("{states: {phi: imu.role}, output: phi}", "'imu.role' is no value of a sensor of this scenario");
+  refused("{states: {phi: imu.role}, output: phi}", "'imu.role' is unknown; this scenario has no sensors");
   refused("{states: {phi: \"mod(omega, 0)\"}, output: phi}", "mod(a, b): b must be above 0");
   refused("{states: {phi: omega}, output: phi, inputs: {phi: imu.roll}}", "'phi'");
 }
