@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "core/build_id.h"
@@ -160,7 +161,7 @@ std::string Episodes::problem_of(In actions) const {
       return fmt::format(
           "action[{}, {}]: the set point of {} is {:.6g} rad; expected -3.2 to 3.2 for a hinge with a range; {:.6g} "
           "degrees are {:.4g} rad",
-          i, k, joint.name, value, value, value * M_PI / 180);
+          i, k, joint.name, value, value, value * std::numbers::pi / 180);
     }
   }
   return "";

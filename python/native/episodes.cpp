@@ -132,6 +132,16 @@ void restart(PyEpisodes& episodes, const std::vector<std::size_t>& which, const 
   const std::size_t joints = episodes.all->scenario(0).robot->joints.size();
   set(angles, joints, [&](Initial& start, const double* row) { start.angles.each.assign(row, row + joints); });
   set(speeds, joints, [&](Initial& start, const double* row) { start.speeds.each.assign(row, row + joints); });
+  const std::vector<Joint>& all = episodes.all->scenario(0).robot->joints;
+  for (std::size_t k = 0; k < starts.size(); ++k) {
+    for (std::size_t j = 0; j < joints; ++j) {
+      const double angle = starts[k].angles[j];
+      if (angle >= all[j].lo && angle <= all[j].hi) continue;
+      throw InputError(SourceLocation{"reset"},
+                       fmt::format("angles: joint {} of environment {} is at {:.6g} rad; expected {:.4g} to {:.4g}",
+                                   all[j].name, which[k], angle, all[j].lo, all[j].hi));
+    }
+  }
   set(velocity, 3, [](Initial& start, const double* row) { start.base_velocity = Vec3(row); });
   set(angular_velocity, 3, [](Initial& start, const double* row) { start.base_angular_velocity = Vec3(row); });
   const py::gil_scoped_release released;

@@ -229,6 +229,7 @@ class Refused(unittest.TestCase):
         self.check(r"set point of .* is 57.3 rad.* 57.3 degrees are 1 rad", lambda: envs.step(bad), gaitlab.InputError)
         self.check(r"reset\(mask\): expected 2 truth values, got int64 of \(3,\)", lambda: envs.reset(np.zeros(3, dtype=int)))
         self.check("record=True", lambda: envs.run(0))
+        self.check("angles: joint .* of environment 1 is at 3 rad; expected -1.571 to 1.571", lambda: envs.reset([False, True], angles=3 * np.ones(len(hexapod().joints))), gaitlab.InputError)
         self.check("'leap' is unknown", lambda: gaitlab.start(hexapod(), action="leap"))
         self.check("expected 'fall'", lambda: gaitlab.start(hexapod(), terminate="falls"))
         self.check("2 rows for 3 environments", lambda: gaitlab.start(hexapod(), 3, overrides=[{}, {}]))
