@@ -20,11 +20,11 @@ Source: none. Defaults (chosen): an exact sensor, `touch` 1 N and `release` 0.5 
 
     sensors:
       feet: {type: load, modules: [m5, m6], noise: 0.2}
-      legs: {type: load, legs: "*"})";
+      legs: {type: load, legs: ["*"]})";
 
 void LoadSensor::Settings::fields(Fields& f) {
   f.names("joints", joints, Among::joints, "Joints whose link's load is measured: a name, a pattern, or a list.");
-  f.texts("legs", legs, "Legs whose load is measured: a name such as front_left, a pattern, or a list (gaitlab check).");
+  f.texts("legs", legs, "Legs whose load is measured: a list of names, such as front_left, and patterns (gaitlab check).");
   if (!joints.empty() || !legs.empty()) modules.clear();
   f.names("modules", modules, Among::modules,
           "Modules whose load is measured: a name such as m5, a pattern, or a list; [] for none, the default beside joints "

@@ -149,17 +149,17 @@ std::string with_files(const std::string& file, const std::string& section, cons
   }
 }
 
-const std::string kOwn =
+const std::string kRateFile =
     "gaitlab_cpg: 1\nparameters:\n  mu: {value: 2, unit: 1/s, low: 0, high: 10, about: Rate.}\n"
     "states: {phi: omega*mu}\noutput: amplitude*sin(phi)\n";
 
 TEST(CpgFiles, ParametersAreKeysAndTheResolvedScenarioHasTheEquations) {
-  const std::string text = with_files(kOwn, "{type: ./own.yaml, mu: 3}");
+  const std::string text = with_files(kRateFile, "{type: ./own.yaml, mu: 3}");
   EXPECT_TRUE(contains(text, "type: equations")) << text;
   EXPECT_TRUE(contains(text, "mu: 3")) << text;
-  EXPECT_TRUE(contains(with_files(kOwn, "{type: own.yaml}"), "mu: 2"));
-  EXPECT_TRUE(contains(with_files(kOwn, "{type: ./own.yaml}", {"cpg.mu=4", "cpg.amplitude=0.2"}), "mu: 4"));
-  EXPECT_TRUE(contains(with_files(kOwn, "{type: ./own.yaml, mu: {default: 1, m0/active: 5}}"), "m0/active: 5"));
+  EXPECT_TRUE(contains(with_files(kRateFile, "{type: own.yaml}"), "mu: 2"));
+  EXPECT_TRUE(contains(with_files(kRateFile, "{type: ./own.yaml}", {"cpg.mu=4", "cpg.amplitude=0.2"}), "mu: 4"));
+  EXPECT_TRUE(contains(with_files(kRateFile, "{type: ./own.yaml, mu: {default: 1, m0/active: 5}}"), "m0/active: 5"));
 }
 
 TEST(CpgFiles, FaultsAreRefusedAtTheirPlace) {
@@ -167,11 +167,11 @@ TEST(CpgFiles, FaultsAreRefusedAtTheirPlace) {
     const std::string found = with_files(file, section);
     EXPECT_TRUE(contains(found, text)) << found;
   };
-  refused(kOwn, "{type: ./own.yaml, mu: 30}", "test.yaml:5:31: mu is 30 1/s; expected 0 to 10");
-  refused(kOwn, "{type: ./own.yaml, mu: fast}", "test.yaml:5:31: mu is 'fast'; expected a number");
-  refused(kOwn, "{type: ./other.yaml}", "other.yaml");
-  refused(kOwn, "{type: ./own.yaml, model: {states: {x: 1}}}", "model.states is stated by");
-  refused(kOwn, "{type: ./own.yaml, ampl: 1}", "ampl");
+  refused(kRateFile, "{type: ./own.yaml, mu: 30}", "test.yaml:5:31: mu is 30 1/s; expected 0 to 10");
+  refused(kRateFile, "{type: ./own.yaml, mu: fast}", "test.yaml:5:31: mu is 'fast'; expected a number");
+  refused(kRateFile, "{type: ./other.yaml}", "other.yaml");
+  refused(kRateFile, "{type: ./own.yaml, model: {states: {x: 1}}}", "model.states is stated by");
+  refused(kRateFile, "{type: ./own.yaml, ampl: 1}", "ampl");
   refused("gaitlab_cpg: 2\nstates: {x: 1}\noutput: x\n", "{type: ./own.yaml}", "own.yaml:1:14");
   refused("gaitlab_cpg: 1\nstates: {x: 1}\n", "{type: ./own.yaml}", "output");
   refused("gaitlab_cpg: 1\nstates: {phi: omega*nu}\noutput: phi\n", "{type: ./own.yaml}", "own.yaml:2:21: 'nu' is unknown");
