@@ -31,7 +31,7 @@ CONTENTS = (
         ("Remedies", "docs/remedy.md"), ("Library of modules", "docs/library.md"), ("Studies", "docs/studies.md"),
         ("The page of a run", "docs/report.md"), ("The real robot", "docs/real-robot.md"),
         ("From a URDF file", "docs/tutorials/dog.md"), ("From a data sheet", "docs/tutorials/motors.md"), ("From logs", "docs/tutorials/your-servo.md"),
-        ("Write a CPG", "docs/tutorials/write-a-cpg.md"), ("In MuJoCo", "docs/mujoco.md"), ("Files of others", "docs/trust.md"))),
+        ("Write a CPG", "docs/tutorials/write-a-cpg.md"), ("Close the loop", "docs/tutorials/close-the-loop.md"), ("In MuJoCo", "docs/mujoco.md"), ("Files of others", "docs/trust.md"))),
     ("Reference", (
         ("Scenario", "docs/reference/scenario.md"), ("Module", "docs/reference/module.md"), ("Plugins", "docs/reference/plugins.md"),
         ("Verdict", "docs/reference/verdict.md"), ("Study", "docs/reference/study.md"), ("Figure", "docs/reference/figure.md"))),

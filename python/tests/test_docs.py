@@ -7,6 +7,8 @@ import unittest
 
 import numpy
 
+import gaitlab
+
 from common import ROOT, InFolder
 
 
@@ -28,6 +30,19 @@ class Page(InFolder):
         self.assertRegex(best, r"^-?0\.\d+\n$")
         self.assertEqual(len(names["table"]), 4)  # made by the last block
         self.assertEqual(names["run"].outcome, "done")
+
+
+class Tutorial(InFolder):
+    def test_the_loop_in_python(self):
+        with open(os.path.join(ROOT, "docs", "tutorials", "close-the-loop.md")) as file:
+            blocks = re.findall(r"^```(\w+)\n(.*?)^```$", file.read(), re.M | re.S)
+        with open("balance.yaml", "w") as file:
+            file.write(next(block for language, block in blocks if language == "yaml" and "gaitlab: 1" in block))
+        names = {"numpy": numpy, "gaitlab": gaitlab}
+        with contextlib.redirect_stdout(io.StringIO()) as said:
+            exec(compile(next(block for language, block in blocks if language == "python"), "close-the-loop.md", "exec"), names)
+        self.assertEqual(list(names["envs"].ended), [""] * 8)  # it stands after 3 s
+        self.assertLess(abs(names["envs"].truth["base.position"][0, 2] - 0.05), 0.005, said.getvalue())
 
 
 if __name__ == "__main__":

@@ -52,10 +52,10 @@ def blocks(text):
 
 
 def write_file(folder, before, block):
-    """Writes a scenario or a study to a file, whose name is in the text in front of the block or is the key `name` in it."""
+    """Writes a scenario, a study or a CPG file to a file, whose name is in the text in front of the block or is the key `name` in it."""
     content = yaml.safe_load(block)
     named = re.findall(r'`([\w-]+\.yaml)`', before.strip().split('\n\n')[-1])
-    if isinstance(content, dict) and {'gaitlab', 'gaitlab_study'} & set(content) and (named or 'name' in content):
+    if isinstance(content, dict) and {'gaitlab', 'gaitlab_study', 'gaitlab_cpg'} & set(content) and (named or 'name' in content):
         with open(os.path.join(folder, named[0] if named else content['name'] + '.yaml'), 'w', encoding='utf-8') as file:
             file.write(block)
 
