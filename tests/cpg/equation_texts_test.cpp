@@ -35,7 +35,7 @@ TEST_F(EquationTexts, OfWrongGrammarNameTheCharacter) {
       {"x + r*sn(phi)", "8:19: error: 'sn' is not a function; did you mean 'sin'?"},
       {"x*foo(1)",
        "8:15: error: 'foo' is not a function; known functions: sin, cos, tan, tanh, exp, log, sqrt, abs, sign, min, max, "
-       "clamp, if, sum"},
+       "clamp, if, mod, atan2, sum"},
       {"x + sin(phi, r)", "8:17: error: sin has 2 arguments; expected 1"},
       {"max(x)", "8:13: error: max has 1 argument; expected 2"},
       {"min()", "8:17: error: found ')'; expected a number, a name or '('"},
@@ -69,16 +69,19 @@ TEST_F(EquationTexts, OfWrongGrammarNameTheCharacter) {
 }
 
 TEST_F(EquationTexts, KnowWhereAWordMayStand) {
-  EXPECT_EQ(output("x + angle"), "8:17: error: 'angle' may not be used in the output; only in a derivative");
+  EXPECT_EQ(output("x + angle"),
+            "8:17: error: 'angle' may not be used in the output; only in a derivative or an event: set a state");
   EXPECT_EQ(wrong("initial: {phi: r}"),
-            "8:20: error: 'r' may not be used in an initial value; only in a derivative or the output");
+            "8:20: error: 'r' may not be used in an initial value; only in a derivative, an event or the output");
   EXPECT_EQ(wrong("parameters: {a: b, b: 2}"),
             "8:21: error: 'b' is defined below; a parameter may use only parameters above it");
-  EXPECT_EQ(wrong("parameters: {a: t}"), "8:21: error: 't' may not be used in a parameter; only in a derivative or the output");
+  EXPECT_EQ(wrong("parameters: {a: t}"),
+            "8:21: error: 't' may not be used in a parameter; only in a derivative, an event or the output");
   EXPECT_EQ(wrong("initial: {phy: 1}"), "8:15: error: 'phy' is not a state; did you mean 'phi'?");
   EXPECT_EQ(wrong("parameters: {sin: 1}"), "8:18: error: 'sin' has a fixed meaning in equations; choose another name");
   EXPECT_EQ(wrong("parameters: {depth: 1}"), "8:18: error: 'depth' has a fixed meaning in equations; choose another name");
-  EXPECT_EQ(wrong("parameters: {phi: 1}"), "8:18: error: 'phi' is a parameter and a state; give one of them another name");
+  EXPECT_EQ(wrong("parameters: {phi: 1}"),
+            "8:18: error: 'phi' is declared twice, as a parameter, a state or an input; give one of them another name");
   EXPECT_EQ(wrong("parameters: {1a: 1}"), "8:18: error: '1a' is not a name; expected a letter, then letters, digits and `_`");
 }
 
@@ -106,7 +109,8 @@ TEST_F(EquationTexts, LackNothing) {
 TEST_F(EquationTexts, AreAllChecked) {
   EXPECT_EQ(
       wrong("states:\n  phi: omega + a\n  r: 1 +\ninitial: {phi: bb}\noutput: cc*phi + dd"),
-      "9:20: error: 'a' is unknown; known names: pi, t, angle, speed, torque, touching, frequency, omega, amplitude, offset, "
+      "9:20: error: 'a' is unknown; known names: pi, t, angle, speed, torque, touching, load, limb_load, limb_touching, "
+      "frequency, omega, amplitude, offset, "
       "phase, index, joints, depth, side, phi, r\n"
       "DIR/s.yaml:10:13: error: found the end of the text; expected a number, a name or '('\n"
       "DIR/s.yaml:11:20: error: 'bb' is unknown; known names: pi, frequency, omega, amplitude, offset, phase, index, joints, "

@@ -109,11 +109,18 @@ TEST(CpgFiles, AnEventActsOnTheRisingEdgeAlone) {
 
 TEST(CpgFiles, AdaptiveHopfLearnsTheFrequency) {
   Alone hopf("{type: adaptive_hopf, step: 0.001}", 0.001);
-  const auto closed_form = [](double nu) { return ((1600 - nu * nu) / 2 - 900 * std::log(40 / nu)) * 4 / 9; };
-  for (int k = 0; k < 10000; ++k) hopf.tick();
-  // 0.3 % of nu: the average is to second order in eps; t at that nu by the closed form, whose slope is 4 (900/nu - nu)/9.
-  EXPECT_NEAR(closed_form(hopf.x[2]), 10, 0.003 * hopf.x[2] * (hopf.x[2] - 900 / hopf.x[2]) * 4 / 9);
-  for (int k = 10000; k < 60000; ++k) hopf.tick();
+  // Time at which the average has this frequency: (nu0^2 - nu^2)/2 - 900 ln(nu0/nu) = eps^2 t/4.
+  const auto when = [](double nu) { return ((1600 - nu * nu) / 2 - 900 * std::log(40 / nu)) * 4 / 9; };
+  double low = 30;
+  double high = 40;
+  while (high - low > 1e-9) (when((low + high) / 2) > 10 ? low : high) = (low + high) / 2;
+  double average = 0;
+  for (int k = 0; k < 10500; ++k) {
+    hopf.tick();
+    if (k >= 9500) average += hopf.x[2] / 1000;  // nu swings about the average by eps/2/(nu + 30) and more
+  }
+  EXPECT_NEAR(average, low, 0.003 * low);  // the average is to second order in eps
+  for (int k = 10500; k < 60000; ++k) hopf.tick();
   double mean = 0;
   for (int k = 0; k < 5000; ++k) {
     hopf.tick();
@@ -126,11 +133,11 @@ TEST(CpgFiles, RighettiStopsWhileTheLegCarries) {
   Alone leg("{type: righetti_2008, frequency: 0.5, step: 0.001}", 0.001);
   leg.load = {5};
   for (int k = 0; k < 20000; ++k) leg.tick();
-  EXPECT_NEAR(leg.x[0], -1, 1e-6);  // -sqrt(mu): the end of the stance
+  EXPECT_NEAR(leg.x[0], -1, 1e-3);  // -sqrt(mu), the end of the stance; 1e-3: y crosses 0 in every tick of 1 ms
   EXPECT_NEAR(leg.x[1], 0, 1e-3);
   leg.load = {0};
   for (int k = 0; k < 20000; ++k) leg.tick();
-  EXPECT_NEAR(leg.x[0], 1, 1e-6);  // the end of the swing, without contact
+  EXPECT_NEAR(leg.x[0], 1, 1e-3);  // the end of the swing, without contact
 }
 
 std::string with_files(const std::string& file, const std::string& section, const std::vector<std::string>& sets = {}) {
@@ -159,7 +166,7 @@ TEST(CpgFiles, ParametersAreKeysAndTheResolvedScenarioHasTheEquations) {
   EXPECT_TRUE(contains(text, "mu: 3")) << text;
   EXPECT_TRUE(contains(with_files(kRateFile, "{type: own.yaml}"), "mu: 2"));
   EXPECT_TRUE(contains(with_files(kRateFile, "{type: ./own.yaml}", {"cpg.mu=4", "cpg.amplitude=0.2"}), "mu: 4"));
-  EXPECT_TRUE(contains(with_files(kRateFile, "{type: ./own.yaml, mu: {default: 1, m0/active: 5}}"), "m0/active: 5"));
+  EXPECT_TRUE(contains(with_files(kRateFile, "{type: ./own.yaml, mu: {default: 1, m0/active: 5}}"), "mu: [5, 1]"));
 }
 
 TEST(CpgFiles, FaultsAreRefusedAtTheirPlace) {
@@ -167,14 +174,15 @@ TEST(CpgFiles, FaultsAreRefusedAtTheirPlace) {
     const std::string found = with_files(file, section);
     EXPECT_TRUE(contains(found, text)) << found;
   };
-  refused(kRateFile, "{type: ./own.yaml, mu: 30}", "test.yaml:5:31: mu is 30 1/s; expected 0 to 10");
-  refused(kRateFile, "{type: ./own.yaml, mu: fast}", "test.yaml:5:31: mu is 'fast'; expected a number");
+  refused(kRateFile, "{type: ./own.yaml, mu: 30}", "test.yaml:5:29: error: mu is 30 1/s; expected 0 to 10");
+  refused(kRateFile, "{type: ./own.yaml, mu: fast}", "test.yaml:5:29: error: mu is 'fast'; expected a number");
   refused(kRateFile, "{type: ./other.yaml}", "other.yaml");
   refused(kRateFile, "{type: ./own.yaml, model: {states: {x: 1}}}", "model.states is stated by");
   refused(kRateFile, "{type: ./own.yaml, ampl: 1}", "ampl");
   refused("gaitlab_cpg: 2\nstates: {x: 1}\noutput: x\n", "{type: ./own.yaml}", "own.yaml:1:14");
   refused("gaitlab_cpg: 1\nstates: {x: 1}\n", "{type: ./own.yaml}", "output");
-  refused("gaitlab_cpg: 1\nstates: {phi: omega*nu}\noutput: phi\n", "{type: ./own.yaml}", "own.yaml:2:21: 'nu' is unknown");
+  refused("gaitlab_cpg: 1\nstates: {phi: omega*nu}\noutput: phi\n", "{type: ./own.yaml}",
+          "own.yaml:2:21: error: 'nu' is unknown");
   refused("gaitlab_cpg: 1\nparameters: {omega: {value: 1}}\nstates: {x: 1}\noutput: x\n", "{type: ./own.yaml}",
           "has a fixed meaning");
   refused("gaitlab: 1\nrobot: {modules: mtran}\nduration: 1\n", "{type: ./own.yaml}", "this is a scenario, not a CPG file");

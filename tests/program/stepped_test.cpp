@@ -162,7 +162,7 @@ TEST(Stepped, FaultsBeginAnewWithTheRestart) {
 
 TEST(Stepped, ATickAllocatesNothing) {
   std::vector<std::string> sets = kFast;
-  sets.emplace_back("sensors={imu: {type: imu, body: m0/active, noise: 0.01}, feet: {type: load}}");
+  sets.emplace_back("sensors={imu: {type: imu, body: m0/active, gyro: {noise: 0.01}}, feet: {type: load}}");
   kit::Episodes episodes(std::vector<Scenario>(8, shipped("hexapod.yaml", sets)), {});
   std::vector<double> wanted(8 * episodes.action_size(), 0.0);
   for (int k = 0; k < 5; ++k) episodes.step(wanted);
@@ -206,7 +206,7 @@ TEST(Stepped, EnvironmentsThatCannotShareAreRefusedByNumber) {
     const kit::Episodes refused(all, {});
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_TRUE(contains(error.what(), "overrides[2]: changes physics.integrator")) << error.what();
+    EXPECT_TRUE(contains(error.what(), "overrides[2]: error: changes physics.integrator")) << error.what();
   }
 }
 

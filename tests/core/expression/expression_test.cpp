@@ -34,7 +34,7 @@ TEST(Expression, NamesOfFiguresHoldDotsAndJoints) {
 }
 
 TEST(Expression, RefusesOtherNames) {
-  EXPECT_EQ(refused("torque.peak", NameSyntax::joints), "6: found '.', which has no meaning here");
+  EXPECT_EQ(refused("torque.peak", NameSyntax::joints), "taken");  // a value of a sensor
   EXPECT_EQ(refused("torque.", NameSyntax::figures), "6: found '.', which has no meaning here");
   EXPECT_EQ(refused("torque.1", NameSyntax::figures), "6: found '.1'; expected an operator or the end of the text");
   EXPECT_EQ(refused("torque..peak", NameSyntax::figures), "6: found '.', which has no meaning here");

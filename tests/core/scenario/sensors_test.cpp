@@ -53,10 +53,11 @@ TEST_F(SensorsTest, ResolvedHasEveryKey) {
                 "  drives: {type: motor, measures: current}"));
   expect_stable(s);
   const std::string text = resolved(s);
-  for (const char* part : {"\n  columns: [joint.*, base.*, com.*, sensor.*]\n",
-                           "\n  feet:\n    type: load\n    modules: [m1, m0]\n    bodies: m1/b\n", "\n    joints: m0/h\n",
-                           "\n    delay: [0.015, 0.045]\n", "\n    range: [-1, 1]\n", "\n    measures: [tilt, gyro]\n",
-                           "\n    gyro:\n      period: 0\n", "\n    measures: current\n", "\n    tachometer:\n"}) {
+  for (const char* part :
+       {"\n  columns: [joint.*, base.*, com.*, sensor.*]\n",
+        "\n  feet:\n    type: load\n    joints: []\n    legs: []\n    modules: [m1, m0]\n    bodies: m1/b\n",
+        "\n    joints: m0/h\n", "\n    delay: [0.015, 0.045]\n", "\n    range: [-1, 1]\n", "\n    measures: [tilt, gyro]\n",
+        "\n    gyro:\n      period: 0\n", "\n    measures: current\n", "\n    tachometer:\n"}) {
     EXPECT_NE(text.find(part), std::string::npos) << part << text;
   }
   EXPECT_EQ(read(with("sensors: {type: encoder}")).trace.columns.size(), 3U) << "an encoder belongs to joints";
