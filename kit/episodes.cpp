@@ -168,8 +168,9 @@ std::string Episodes::problem_of(In actions) const {
 }
 
 void Episodes::step(In actions) {
-  if (groups_.size() == 1) return step_group(0, actions);
-  parallel(groups_.size(), settings_.threads, [&](std::size_t g) { step_group(g, actions); });
+  if (settings_.threads > 1 && groups_.size() > 1)
+    return parallel(groups_.size(), settings_.threads, [&](std::size_t g) { step_group(g, actions); });
+  for (std::size_t g = 0; g < groups_.size(); ++g) step_group(g, actions);
 }
 
 void Episodes::step_group(std::size_t g, In actions) {
