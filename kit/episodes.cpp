@@ -89,6 +89,8 @@ Episodes::Episodes(std::vector<Scenario> scenarios, EpisodeSettings settings)
   for (std::size_t j = 0; j < robot.joints.size(); ++j) {
     if (robot.joints[j].driven()) driven_.push_back(j);
   }
+  if (driven_.empty() || scenarios_[0].actuator.entry == nullptr)
+    throw InputError(scenarios_[0].place("actuator"), "the robot has no motors, so that actions have no effect");
   const std::vector<Leg> legs = plugin_info(scenarios_[0]).legs;
   for (const Leg& leg : legs) leg_bodies_.emplace_back(leg.bodies.begin(), leg.bodies.end());
   observed_ = observed_columns(scenarios_[0]);

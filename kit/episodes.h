@@ -42,7 +42,7 @@ struct EpisodeColumn {
 /// Environments, one per scenario, which share engine, step, control period and structure of the robot (can_share). Each runs
 /// with the bits that it would have alone, for any number of threads, lanes and other environments. An environment that has
 /// ended keeps its last rows until restart(). Throws InputError whose place is `overrides[i]` for a scenario that does not fit
-/// the first one, and the errors of SteppedLanes.
+/// the first one, InputError for a robot without motors, and the errors of SteppedLanes.
 class Episodes {
  public:
   Episodes(std::vector<Scenario> scenarios, EpisodeSettings settings);

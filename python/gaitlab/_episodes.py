@@ -213,6 +213,8 @@ class Episodes:
             raise ValueError(f"{name} has the shape {numbers.shape}; expected ({width},) or ({self.n}, {width})")
         if not np.all(np.isfinite(numbers)):
             raise ValueError(f"{name} has a number that is not finite")
+        if name != "angles" and np.abs(numbers).max() > 1e4:
+            raise ValueError(f"{name} has a number beyond 10000")
         return np.broadcast_to(numbers, (self.n, width))
 
 

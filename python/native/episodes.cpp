@@ -60,8 +60,12 @@ Texts fast_settings(const Scenario& s) {
                                  "Scenario(..., {{\"physics.engine\": \"articulated\"}})",
                                  s.physics.engine->name));
   }
-  const double parts = std::ceil(s.control_period / kLongest - 1e-9);
-  return engine_settings(s, engine->name, *implicit, fmt::format("{}", s.control_period / parts));
+  const double step = s.control_period / std::ceil(s.control_period / kLongest - 1e-9);
+  Texts sets = engine_settings(s, engine->name, *implicit, fmt::format("{}", step));
+  // A given step must divide the periods of the trace, which is not recorded, and the duration, which ends at a control tick.
+  sets.push_back(fmt::format("trace.period={}", step));
+  sets.push_back(fmt::format("duration={}", s.control_period * std::ceil(s.duration / s.control_period - 1e-9)));
+  return sets;
 }
 
 std::shared_ptr<PyEpisodes> start(const PyScenario& scenario, const std::vector<Texts>& overrides, const Texts& action,
@@ -72,16 +76,20 @@ std::shared_ptr<PyEpisodes> start(const PyScenario& scenario, const std::vector<
   kit::EpisodeSettings settings{{}, every, threads, lanes, record};
   for (const std::string& part : action) settings.action.push_back(*named<kit::ActionPart>(part));
   apart([&] {
-    const Texts quick = fast ? fast_settings(scenario.scenario) : Texts();
     std::vector<Scenario> scenarios;
     Problems problems;
     for (std::size_t i = 0; i < overrides.size(); ++i) {
       Texts own = scenario.own;
       own.insert(own.end(), overrides[i].begin(), overrides[i].end());
       made->own.push_back(own);
-      own.insert(own.end(), quick.begin(), quick.end());
       try {
-        scenarios.push_back(made->file->with(own));
+        Scenario one = made->file->with(own);
+        if (fast) {
+          const Texts quick = fast_settings(one);
+          own.insert(own.end(), quick.begin(), quick.end());
+          one = made->file->with(own);
+        }
+        scenarios.push_back(std::move(one));
       } catch (const InputError& error) {
         for (const Problem& one : error.problems()) problems.add(one.place, fmt::format("overrides[{}]: {}", i, one.text));
       }

@@ -169,6 +169,10 @@ class Rows(unittest.TestCase):
         self.assertFalse(np.array_equal(a, b))
         self.assertLess(np.abs(a - b).max(), 2e-3)
         fast.run(0)
+        dog = gaitlab.start("dog-trot", 2, fast=True, overrides=[{"duration": 0.5013}, {}])  # steps of 2 ms, rows every 5 ms
+        for _ in range(260):
+            dog.step(np.zeros((2, len(dog.joints))) + dog.observations[:, : len(dog.joints)])
+        self.assertEqual(list(dog.ended), ["done", ""])
 
 
 class Policies(InFolder):
@@ -230,6 +234,9 @@ class Refused(unittest.TestCase):
         self.check(r"reset\(mask\): expected 2 truth values, got int64 of \(3,\)", lambda: envs.reset(np.zeros(3, dtype=int)))
         self.check("record=True", lambda: envs.run(0))
         self.check("angles: joint .* of environment 1 is at 3 rad; expected -1.571 to 1.571", lambda: envs.reset([False, True], angles=3 * np.ones(len(hexapod().joints))), gaitlab.InputError)
+        self.check("base_velocity has a number beyond 10000", lambda: envs.reset(base_velocity=[1e5, 0, 0]))
+        self.check("the robot has no motors", lambda: gaitlab.start("pendulum"), gaitlab.InputError)
+        self.check("contact.law: bullet allows no snapshot", lambda: gaitlab.start(gaitlab.Scenario("hexapod", {"physics.engine": "bullet", "contact.law": "bullet"})), gaitlab.InputError)
         self.check("'leap' is unknown", lambda: gaitlab.start(hexapod(), action="leap"))
         self.check("expected 'fall'", lambda: gaitlab.start(hexapod(), terminate="falls"))
         self.check("2 rows for 3 environments", lambda: gaitlab.start(hexapod(), 3, overrides=[{}, {}]))
