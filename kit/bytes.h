@@ -39,7 +39,7 @@ class Bytes {
   /// Numbers in whole rows of `row`.
   std::vector<double> rows(std::size_t row) {
     std::vector<double> all(take_count(sizeof(double)));
-    if (all.size() % row != 0) throw BadBytes("do not fit");
+    if (row == 0 || all.size() % row != 0) throw BadBytes("do not fit");
     take(all.data(), all.size() * sizeof(double));
     return all;
   }

@@ -31,6 +31,19 @@ void add(std::vector<EpisodeColumn>& columns, const std::string& quantity, const
   for (const std::string& part : parts) columns.push_back({quantity + "." + part, unit});
 }
 
+/// Difference of two scenarios that changes the rows of observations or truth, or nullptr.
+const char* other_rows(const Scenario& a, const Scenario& b) {
+  const RobotInfo one = plugin_info(a);
+  const RobotInfo two = plugin_info(b);
+  const auto same = [](const auto& x, const auto& y) { return x.name == y.name; };
+  if (one.channels != two.channels) return "the sensors";
+  if (one.modules.size() != two.modules.size() || !std::ranges::equal(one.joints, two.joints, same) ||
+      !std::ranges::equal(one.bodies, two.bodies, same))
+    return "the modules of the robot";
+  const auto same_leg = [](const Leg& x, const Leg& y) { return x.name == y.name && x.bodies == y.bodies; };
+  return std::ranges::equal(one.legs, two.legs, same_leg) ? nullptr : "the legs of the robot";
+}
+
 std::vector<EpisodeColumn> observed_columns(const Scenario& s) {
   const RobotInfo info = plugin_info(s);
   const std::vector<std::string> joints = joint_names(*s.robot);
@@ -42,7 +55,11 @@ std::vector<EpisodeColumn> observed_columns(const Scenario& s) {
   add(columns, "torque", joints, "N m");
   add(columns, "load", joints, "N");
   add(columns, "touching", modules, "");
-  for (const std::string& channel : info.channels) columns.push_back({channel, ""});
+  for (const auto& sensor : make_sensors(s)) {
+    for (const SensorReading& reading : sensor->readings()) {
+      if (reading.replaces == Replaces::nothing) columns.push_back({reading.name, reading.unit});
+    }
+  }
   return columns;
 }
 
@@ -79,7 +96,7 @@ Episodes::Episodes(std::vector<Scenario> scenarios, EpisodeSettings settings)
   for (Scenario& one : scenarios_) one.physics.estimate = Estimate::off;
   for (std::size_t i = 1; i < scenarios_.size(); ++i) {
     const char* other = keeps_apart(scenarios_[0], scenarios_[i]);
-    if (other == nullptr && plugin_info(scenarios_[0]).channels != plugin_info(scenarios_[i]).channels) other = "the sensors";
+    if (other == nullptr) other = other_rows(scenarios_[0], scenarios_[i]);
     if (other == nullptr) continue;
     problems.add(SourceLocation{fmt::format("overrides[{}]", i)},
                  fmt::format("changes {}, which environments that are stepped together share", other));
@@ -151,19 +168,26 @@ void Episodes::make_groups() {
 std::string Episodes::problem_of(In actions) const {
   constexpr double kLargest = 3.2;  // rad, as check_angle() of robot_info.h
   const std::size_t row = action_size();
-  const std::vector<Joint>& joints = scenarios_[0].robot->joints;
+  const std::size_t motors = driven_.size();
+  const auto part = [&](ActionPart wanted) { return std::ranges::find(settings_.action, wanted) != settings_.action.end(); };
+  const bool angles = part(ActionPart::setpoint) || part(ActionPart::residual);
   for (std::size_t i = 0; i < size(); ++i) {
+    const In own = actions.subspan(i * row, row);
     for (std::size_t k = 0; k < row; ++k) {
-      const double value = actions[i * row + k];
-      const Joint& joint = joints[driven_[k % driven_.size()]];
-      if (!std::isfinite(value)) return fmt::format("action[{}, {}] is {} (joint {})", i, k, value, joint.name);
-      const bool angle = settings_.action[k / driven_.size()] == ActionPart::setpoint;
-      if (!angle || joint.hi == std::numeric_limits<double>::infinity() || std::abs(value) <= kLargest || ended_[i] != 0)
-        continue;
+      if (!std::isfinite(own[k]))
+        return fmt::format("action[{}, {}] is {} (joint {})", i, k, own[k],
+                           scenarios_[i].robot->joints[driven_[k % motors]].name);
+    }
+    for (std::size_t d = 0; angles && ended_[i] == 0 && d < motors; ++d) {
+      const Joint& joint = scenarios_[i].robot->joints[driven_[d]];
+      double angle = 0;
+      for (std::size_t k = d; k < row; k += motors) angle += own[k];
+      if (joint.hi == std::numeric_limits<double>::infinity() || std::abs(angle) <= kLargest) continue;
       return fmt::format(
-          "action[{}, {}]: the set point of {} is {:.6g} rad; expected -3.2 to 3.2 for a hinge with a range; {:.6g} "
-          "degrees are {:.4g} rad",
-          i, k, joint.name, value, value, value * std::numbers::pi / 180);
+          "action[{}]: {} of {} is {:.6g} rad; expected -3.2 to 3.2 for a hinge with a range; {:.6g} degrees are "
+          "{:.4g} rad",
+          i, part(ActionPart::setpoint) ? "the set point" : "the residual", joint.name, angle, angle,
+          angle * std::numbers::pi / 180);
     }
   }
   return "";
@@ -196,8 +220,9 @@ void Episodes::step_group(std::size_t g, In actions) {
       const std::size_t i = first_[g] + l;
       if (ended_[i] != 0) continue;
       const std::vector<double>& asked = own.asked(l);
-      if (settings_.record) kept_[i].insert(kept_[i].end(), asked.begin(), asked.end());
       outcomes_[i] = own.outcome(l);
+      const bool given = outcomes_[i].ended != Ended::plugin;  // a plugin that threw gave no set points
+      if (settings_.record && given) kept_[i].insert(kept_[i].end(), asked.begin(), asked.end());
       ended_[i] = own.ended(l) ? 1 : 0;
       // A lane that has failed is at its start again; its last numbers are those of the tick before.
       if (outcomes_[i].done()) read(i);
@@ -232,8 +257,8 @@ void Episodes::read(std::size_t i) {
 
 void Episodes::stop(std::size_t i, const std::string& reason) {
   if (ended_[i] != 0) return;
-  group(i).stop(places_[i].lane, reason);
-  outcomes_[i] = {Ended::stopped, reason};
+  outcomes_[i] = {Ended::stopped, fmt::format("{} at t = {:.6g} s", reason, group(i).time(places_[i].lane))};
+  group(i).stop(places_[i].lane, outcomes_[i].message);
   ended_[i] = 1;
 }
 
@@ -309,6 +334,7 @@ void Episodes::restore(const std::string& bytes) try {
   for (std::size_t i = 0; i < size(); ++i) {
     One& one = all[i];
     one.lane = body.numbers(group(i).size(places_[i].lane));
+    if (!group(i).fits(places_[i].lane, one.lane)) throw BadBytes("do not fit");
     one.kept = body.rows(joints);
     const std::vector<double> start = body.numbers(2 * joints + 6);
     const auto speeds = start.begin() + static_cast<std::ptrdiff_t>(joints);
@@ -328,6 +354,7 @@ void Episodes::restore(const std::string& bytes) try {
   std::vector<double> truth = body.numbers(truth_.size());
   for (std::size_t i = 0; i < size(); ++i) {
     group(i).load(places_[i].lane, all[i].lane);
+    group(i).read(places_[i].lane, states_[i]);
     kept_[i] = std::move(all[i].kept);
     starts_[i] = std::move(all[i].start);
     ended_[i] = all[i].ended ? 1 : 0;

@@ -59,7 +59,7 @@ class Episodes {
   /// Steps all environments that have not ended by `every` control ticks, or to their end. `actions` has a row per environment.
   /// The caller has checked it with problem_of().
   void step(In actions);
-  /// First fault of `actions`, or "": a number that is not finite, or a set point that its hinge cannot have.
+  /// First fault of `actions`, or "": a number that is not finite, or an angle that no hinge with a range has.
   [[nodiscard]] std::string problem_of(In actions) const;
   /// Ends an environment that has not ended.
   void stop(std::size_t i, const std::string& reason);
@@ -77,7 +77,8 @@ class Episodes {
 
   /// Set points of the environment since its start, a row of all joints per control tick, rad. Empty if they are not kept.
   [[nodiscard]] const std::vector<double>& set_points(std::size_t i) const { return kept_[i]; }
-  [[nodiscard]] const Initial& start(std::size_t i) const { return starts_[i]; }  ///< at its last start
+  [[nodiscard]] const RobotState& state(std::size_t i) const { return states_[i]; }  ///< at its last row
+  [[nodiscard]] const Initial& start(std::size_t i) const { return starts_[i]; }     ///< at its last start
 
   /// Everything that changes, as bytes. restore() gives the same numbers again in another object with the same scenarios and
   /// settings, also in another process of this build. Throws InputError for other bytes.
@@ -107,7 +108,7 @@ class Episodes {
   std::vector<std::vector<double>> kept_;
   std::vector<Initial> starts_;
   std::vector<std::vector<std::size_t>> leg_bodies_;
-  std::vector<RobotState> states_;         ///< scratch, by environment
+  std::vector<RobotState> states_;
   std::vector<std::vector<double>> load_;  ///< scratch, by environment and body, N
   /// Scratch, by group: the parts of the actions by lane, part and joint, and views of them by lane.
   std::vector<std::vector<double>> parts_;

@@ -26,7 +26,8 @@ class LaneClock {
 
   /// Number of steps until the end, including a shortened last step.
   [[nodiscard]] std::int64_t steps() const { return static_cast<std::int64_t>(std::ceil(duration_ - kSame)); }
-  [[nodiscard]] bool commands(std::int64_t step) const { return step < steps() && step % control_every_ == 0; }
+  [[nodiscard]] bool commands(std::int64_t step) const { return step < steps() && at_tick(step); }
+  [[nodiscard]] bool at_tick(std::int64_t step) const { return step % control_every_ == 0; }
   /// Number of the control tick at a step. The step must be a control tick.
   [[nodiscard]] std::int64_t tick(std::int64_t step) const { return step / control_every_; }
   /// True if the rollout ends after `step` steps.

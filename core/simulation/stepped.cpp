@@ -1,6 +1,7 @@
 #include "core/simulation/stepped.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "core/math/periods.h"
@@ -11,7 +12,8 @@ namespace gaitlab {
 
 namespace {
 
-constexpr std::size_t kClock = 3;  // numbers of save() before those of each(): steps, ended, measured
+constexpr std::size_t kClock = 3;    // numbers of save() before those of each(): steps, ended, measured
+constexpr double kMostSteps = 1e15;  // of a clock that is read
 
 }  // namespace
 
@@ -49,12 +51,12 @@ void SteppedLanes::tick(std::span<const Action> actions) {
     s.state_[0] += 1;
     s.check();
   }
+  arrive();
   for (const auto& lane : s.lanes_) {
     if (lane->closed || s.step_of(*lane) < lane->clock.steps()) continue;
     lane->outcome = {};
     lane->closed = true;
   }
-  arrive();
 }
 
 bool SteppedLanes::ended(std::size_t lane) const { return simulation_.lanes_[lane]->closed; }
@@ -125,6 +127,19 @@ void SteppedLanes::save(std::size_t lane, Out to) const {
   each(lane, [&](Out all, std::size_t first, std::size_t distance) {
     for (std::size_t i = first; i < all.size(); i += distance) to[at++] = all[i];
   });
+}
+
+bool SteppedLanes::fits(std::size_t lane, In from) const {
+  if (from.size() != size(lane)) return false;
+  const auto whole = [](double x, double most) { return x >= 0 && x <= most && x == std::floor(x); };
+  const Simulation::Lane& own = *simulation_.lanes_[lane];
+  std::size_t after = 0;  // numbers behind the block
+  for (const auto* values : {&own.angle, &own.speed, &own.torque, &own.touching, &own.channels, &own.load, &own.asked})
+    after += values->size();
+  const std::size_t changes = from.size() - after - own.changes.states();
+  const double segments = static_cast<double>(own.changes.segments()) - 1;
+  return whole(from[0], kMostSteps) && whole(from[1], 1) && whole(from[2], 1) &&
+         (own.changes.states() == 0 || whole(from[changes], segments));
 }
 
 void SteppedLanes::load(std::size_t lane, In from) {

@@ -45,6 +45,8 @@ class SteppedLanes {
   /// Numbers of which a copy is a snapshot of a lane. They fit every lane with an equal scenario.
   [[nodiscard]] std::size_t size(std::size_t lane) const;
   void save(std::size_t lane, Out to) const;
+  /// True if load() accepts these numbers: their count, the clock and the segment of `at` are possible.
+  [[nodiscard]] bool fits(std::size_t lane, In from) const;
   void load(std::size_t lane, In from);
 
  private:

@@ -29,7 +29,9 @@ void Simulation::sense() {
   for (const auto& one : lanes_) {
     Lane& lane = *one;
     const std::size_t l = lane.index;
-    if (!control_tick(lane) || lane.sensed) continue;
+    // A stepped lane measures also at its end.
+    const bool due = role_ == Role::stepped ? !lane.closed && lane.clock.at_tick(step_of(lane)) : control_tick(lane);
+    if (!due || lane.sensed) continue;
     lane.sensed = true;
     for (std::size_t j = 0; j < layout_.joints; ++j) {
       lane.angle[j] = plant_state_[layout_.angles() + j * lanes + l];
