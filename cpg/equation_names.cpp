@@ -58,6 +58,12 @@ const char* text_of(Where where) {
   return "the output";
 }
 
+/// False for a number that is not above 0; other terms are not computed here.
+bool above_zero(const Term& term) {
+  if (term.kind == Term::Kind::number) return term.number > 0;
+  return !(term.kind == Term::Kind::call && term.name == "~" && term.arguments[0].kind == Term::Kind::number);
+}
+
 }  // namespace
 
 std::string offer_name(const std::string& found, const std::vector<std::string>& known, const std::string& kind) {
@@ -91,6 +97,11 @@ std::string EquationNames::declare(const std::string& name, Kind kind, std::size
   static const std::vector<std::string> kWords{"i", "j", "in", "neighbours", "sum"};
   const bool word = std::ranges::find(kWords, name) != kWords.end() || expression::find_function(name) != nullptr;
   const Entry* taken = find(name);
+  // A name of the model replaces these, which are newer than many models.
+  if (taken != nullptr && (taken->kind == Kind::load || taken->kind == Kind::limb_load || taken->kind == Kind::limb_touching)) {
+    entries_.erase(entries_.begin() + (taken - entries_.data()));
+    taken = nullptr;
+  }
   if (taken != nullptr && (taken->kind == Kind::parameter || taken->kind == Kind::state || taken->kind == Kind::channel)) {
     return in_quotes(name) + " is declared twice, as a parameter, a state or an input; give one of them another name";
   }
@@ -190,8 +201,7 @@ void EquationNames::check(const Term& term, const SourceLocation& place, std::ve
       faults.push_back(
           {term.offset, in_quotes(term.name) + " is not a function" +
                             (find(term.name) != nullptr ? "; multiply with *" : offer_name(term.name, known, "functions"))});
-    } else if (function->op == Function::Op::mod && found == 2 && term.arguments[1].kind == Term::Kind::number &&
-               !(term.arguments[1].number > 0)) {
+    } else if (function->op == Function::Op::mod && found == 2 && !above_zero(term.arguments[1])) {
       faults.push_back({term.arguments[1].offset, "mod(a, b): b must be above 0"});
     } else if (function->arguments != found) {
       faults.push_back({term.offset, term.name + " has " + std::to_string(found) + (found == 1 ? " argument" : " arguments") +

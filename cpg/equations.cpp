@@ -31,7 +31,7 @@ A model with states has no defaults for parameters, initial and output. pi, the 
 anywhere; states and t (s) in derivatives, events and output; measured values at the control tick only in derivatives and
 events: angle rad, speed rad/s, torque N m, touching (1 while the joint's module touches the ground, else 0), load N (normal
 force on the link that the joint moves), limb_load N (the same with all links beyond it), limb_touching (1 if limb_load is
-above 0), and values of sensors by their names, such as imu.roll (one number for all joints; gaitlab check lists them).
+above 0), and values of sensors by their names, such as imu.roll (trace column sensor.imu.roll; one number for all joints).
 
     sum(j in neighbours, TERM)      over the couplings by which joint i follows a joint j. In TERM: NAME[j], and of the
                                     coupling w[i,j] (its weight) and psi[i,j] (minus its phase_lag: phi_i = phi_j - psi_ij)
@@ -92,7 +92,9 @@ struct Parsed {
   explicit Parsed(const EquationsModel& model) {
     declare("states", model.states, Kind::state, Equations::kMostStates);
     declare("parameters", model.parameters, Kind::parameter, Equations::kMostParameters);
-    for (const Named& input : model.inputs) {
+    if (model.inputs.size() > Equations::kMostInputs)
+      faults.push_back({"inputs", "", std::string::npos, "more than " + std::to_string(Equations::kMostInputs) + " inputs"});
+    for (const Named& input : std::span(model.inputs).first(std::min(model.inputs.size(), Equations::kMostInputs))) {
       if (const std::string wrong = names.declare_channel(input.name, input.text); !wrong.empty())
         faults.push_back({"inputs", input.name, std::string::npos, wrong});
     }
@@ -114,7 +116,13 @@ struct Parsed {
     output = tree("output", "", model.output, Where::output, 0);
     if (model.events.size() > Equations::kMostEvents)
       faults.push_back({"events", "", std::string::npos, "more than " + std::to_string(Equations::kMostEvents) + " events"});
-    for (std::size_t k = 0; k < model.events.size(); ++k) add_event(model, k);
+    for (std::size_t k = 0; k < std::min(model.events.size(), Equations::kMostEvents); ++k) add_event(model, k);
+    for (const Named& state : model.states) {
+      const bool taken = state.name.starts_with("event") && state.name.size() > 5 &&
+                         state.name.find_first_not_of("0123456789", 5) == std::string::npos;
+      if (taken && !model.events.empty())
+        faults.push_back({"states", state.name, std::string::npos, "'" + state.name + "' is the name of an event's state"});
+    }
   }
 
  private:
@@ -243,6 +251,7 @@ void EquationEvent::fields(Fields& f) {
   if (when.empty()) f.problem("when", "no condition is given; expected for example: limb_touching and mod(phi, 2*pi) > pi");
   f.named("set", set, NamedValues::texts, "New values of states, from the states before, when the condition becomes true.");
   if (set.empty()) f.problem("set", "nothing is set; expected for example: {phi: 0}");
+  if (of.empty()) of = {"*"};
   f.names("of", of, Among::joints, "Joints for which the condition is looked at: a name, a pattern, or a list.");
 }
 
@@ -295,10 +304,14 @@ Equations::Equations(const RobotInfo& robot, const Settings& settings)
     const Parsed::Event& event = parsed.events[k];
     events_.push_back({EquationProgram(parsed.names, tables, {&event.when, 1}),
                        EquationProgram(parsed.names, tables, event.set), joints_of(robot, model.events[k].of), event.states});
-    if (events_.back().joints.empty()) {
-      refuse({"events", "", std::string::npos,
-              "event " + std::to_string(k) + ", of: '" + model.events[k].of.front() + "' matches no joint"});
+    for (const std::string& pattern : model.events[k].of) {
+      if (joints_of(robot, {pattern}).empty()) {
+        throw SettingError("model.events", "model.events: event " + std::to_string(k) + ", of: '" + pattern.substr(0, 80) +
+                                               "' matches no joint");
+      }
     }
+    if (events_.back().joints.empty())
+      throw SettingError("model.events", "model.events: event " + std::to_string(k) + ", of: no joint is named");
     most = std::max(most, event.set.size());
   }
   condition_.resize(joints_);

@@ -5,8 +5,6 @@
 
 namespace gaitlab::cpg {
 
-/// Settings of the model. The texts follow the grammar of core/expression/expression.h. The defaults are the model of
-/// `phase_oscillator`.
 /// A change of states at the control tick at which a condition becomes true, for each joint by itself.
 struct EquationEvent {
   std::string when;
@@ -15,6 +13,8 @@ struct EquationEvent {
   void fields(Fields& f);
 };
 
+/// Settings of the model. The texts follow the grammar of core/expression/expression.h. The defaults are the model of
+/// `phase_oscillator`.
 struct EquationsModel {
   double coupling = 1;
   std::vector<Named> states{{"phi", "omega + sum(j in neighbours, w[i,j]*sin(phi[j] - phi[i] - psi[i,j]))"},
@@ -32,7 +32,7 @@ class Equations final : public Cpg {
  public:
   using Settings = OscillatorSettings<EquationsModel>;
   static const char* const kManual;
-  static constexpr std::size_t kMostStates = 32, kMostParameters = 64, kMostEvents = 16;
+  static constexpr std::size_t kMostStates = 32, kMostParameters = 64, kMostEvents = 16, kMostInputs = 64;
 
   /// Throws std::invalid_argument if a text has a fault, names a sensor value that the scenario lacks, or if a parameter or
   /// initial value is not finite for this robot.

@@ -14,7 +14,7 @@ const char* const LoadSensor::kManual =
 CPG and controller get `touches` of these modules in place of the true contact (a force above 0), and the load of these joints,
 which is that of the link that a joint moves, in place of the true one (Measured::load; `load` and `limb_load` in equations). The
 loads of modules, bodies and legs are separate values (Measured::channels). Trace columns sensor.NAME.MODULE,
-sensor.NAME.MODULE.touching, sensor.NAME.BODY, sensor.NAME.JOINT and sensor.NAME.LEG. The keys are those of a channel
+sensor.NAME.MODULE.touching, sensor.NAME.BODY, sensor.NAME.JOINT.link and sensor.NAME.LEG. The keys are those of a channel
 (docs/real-robot.md). Every part has its own draws. A robot without contact elements measures 0.
 Source: none. Defaults (chosen): an exact sensor, `touch` 1 N and `release` 0.5 N.
 
@@ -39,7 +39,8 @@ void LoadSensor::Settings::fields(Fields& f) {
 LoadSensor::LoadSensor(const SensorSite& site, const Settings& settings) : touch_(settings.touch), release_(settings.release) {
   const auto add = [&](Of of, const std::vector<std::size_t>& parts, const std::vector<std::string>& names, const char* what) {
     for (const std::size_t i : parts) {
-      const std::string name = site.name + "." + names[i];
+      const std::string name =
+          site.name + "." + names[i] + (of == Of::joint ? ".link" : "");  // a body may have the joint's name
       channels_.add(Channel(settings, site, name));
       parts_.push_back({of, i});
       readings_.push_back({name, "sensor." + name, "N",

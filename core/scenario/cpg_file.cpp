@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <utility>
 
 #include "core/files/file_kind.h"
 #include "core/settings/reader.h"
 #include "core/settings/shipped_files.h"
 #include "core/settings/text_file.h"
+#include "core/settings/value.h"
 #include "core/settings/wording.h"
 
 namespace gaitlab {
@@ -34,7 +34,7 @@ void put(Node& map, const std::string& key, Node value) {
 
 /// Path of the file that the type of a section names; "" if it names none.
 std::string path_of(const std::string& type, const std::string& folder, const Catalog& catalog) {
-  if (type.find('/') != std::string::npos || type.ends_with(".yaml")) return path_from(folder, type);
+  if (type.find('/') != std::string::npos || type.ends_with(".yaml") || type.ends_with(".yml")) return path_from(folder, type);
   if (catalog.find(Kind::cpg, type) != nullptr) return {};
   const auto shipped = shipped_files("cpg");
   const auto at = shipped.find(type);
@@ -45,14 +45,24 @@ std::string path_of(const std::string& type, const std::string& folder, const Ca
 void check_range(const Node& value, const CpgParameter& parameter, Problems& problems) {
   for (const Node& item : value.items) check_range(item, parameter, problems);
   if (value.kind != Node::Kind::scalar) return;
-  double number = 0;
-  const char* const end = value.text.data() + value.text.size();
-  const auto [last, failure] = std::from_chars(value.text.data(), end, number);
-  if (value.quoted || failure != std::errc() || last != end) {
-    problems.add(value.place, fmt::format("{} is {}; expected a number", parameter.name, found(value)));
-  } else if (!(number >= parameter.low && number <= parameter.high)) {
-    problems.add(value.place, fmt::format("{} is {} {}; expected {} to {}", parameter.name, value.text, parameter.unit,
-                                          number_text(parameter.low), number_text(parameter.high)));
+  const Reading<double> number = read_number(value, parameter.unit);
+  if (!number.ok()) {
+    problems.add(value.place, parameter.name + " " + number.wrong);
+  } else if (!(number.value >= parameter.low && number.value <= parameter.high)) {
+    problems.add(value.place,
+                 fmt::format("{} is {}{}{}; expected {} to {}", parameter.name, value.text, parameter.unit.empty() ? "" : " ",
+                             parameter.unit, number_text(parameter.low), number_text(parameter.high)));
+  }
+}
+
+/// Adds the keys of a file that the section does not state and that are not those of the file itself.
+void put_defaults(const CpgFile& file, Node& section) {
+  constexpr std::array kOfFile{"gaitlab_cpg", "name", "manual", "parameters", "type", "model"};
+  for (std::size_t i = 0; i < file.text.items.size(); ++i) {
+    const std::string& key = file.text.keys[i].first;
+    const bool own =
+        std::ranges::find(kOfFile, key) != kOfFile.end() || std::ranges::find(kModelParts, key) != kModelParts.end();
+    if (!own && section.find(key) == nullptr) put(section, key, file.text.items[i]);
   }
 }
 
@@ -68,7 +78,32 @@ Node with_model(const Node& section, const CpgFile& file, Problems& problems) {
     }
   }
   put(made, "model", *file.text.find("model"));
+  put_defaults(file, made);
   return made;
+}
+
+SourceLocation place_of_parameter(const CpgFile& file, const std::string& name) {
+  const Node& all = *file.text.find("parameters");
+  return std::ranges::find(all.keys, name, [](const auto& key) { return key.first; })->second;
+}
+
+/// Names the parameters in section `at` as the equations do: `cpg.sigma` becomes `cpg.model.parameters.sigma`.
+void rename_changes(Node& root, const CpgFile& file, Problems& problems) {
+  Node* const at = const_cast<Node*>(std::as_const(root).find("at"));
+  if (at == nullptr) return;
+  for (Node& change : at->items) {
+    Node* const set = const_cast<Node*>(std::as_const(change).find("set"));
+    if (set == nullptr || set->kind != Node::Kind::map) continue;
+    for (std::size_t i = 0; i < set->items.size(); ++i) {
+      for (const CpgParameter& one : file.parameters) {
+        const std::string inside = "cpg.model.parameters." + one.name;
+        std::string& key = set->keys[i].first;
+        if (key != inside && key != "cpg." + one.name) continue;
+        key = inside;
+        check_range(set->items[i], one, problems);
+      }
+    }
+  }
 }
 
 /// The section of type `equations` that means the same as `section`.
@@ -101,12 +136,16 @@ Node expanded(const Node& section, const CpgFile& file, Problems& problems) {
     }
   }
   Node parameters{Node::Kind::map, section.place};
-  for (std::size_t k = 0; k < values.size(); ++k) put(parameters, file.parameters[k].name, std::move(values[k]));
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    parameters.keys.emplace_back(file.parameters[k].name, place_of_parameter(file, file.parameters[k].name));
+    parameters.items.push_back(std::move(values[k]));
+  }
   if (!parameters.items.empty()) put(model, "parameters", std::move(parameters));
   for (const char* const part : kModelParts) {
     if (const Node* const stated = file.text.find(part)) put(model, part, *stated);
   }
   put(made, "model", std::move(model));
+  put_defaults(file, made);
   return made;
 }
 
@@ -124,6 +163,7 @@ void CpgParameter::fields(Fields& f) {
 std::optional<CpgFile> read_cpg_file(const std::string& path, const SourceLocation& asked_at, Problems& problems) {
   expect_kind(path, FileKind::cpg);
   CpgFile file{path, {}, {}, read_yaml(path, asked_at)};
+  constexpr std::array kOfSection{"type", "model", "step", "frequency", "amplitude", "offset", "phase_lag", "couplings"};
   const std::size_t before = problems.size();
   Reader reader(file.text, "CPG file", problems, nullptr);
   reader.version("gaitlab_cpg");
@@ -142,7 +182,13 @@ std::optional<CpgFile> read_cpg_file(const std::string& path, const SourceLocati
     for (const char* const part : kModelParts) reader.take(part);
     reader.require({"gaitlab_cpg", "states", "output"});
   }
+  for (const char* const key : kOfSection) reader.take(key);  // defaults of the scenario's section
   reader.finish();
+  for (const CpgParameter& one : file.parameters) {
+    if (std::ranges::find(kOfSection, one.name) != kOfSection.end())
+      problems.add(place_of_parameter(file, one.name),
+                   fmt::format("{} is a key of cpg itself; expected another name", in_quotes(one.name)));
+  }
   if (problems.size() > before) return {};
   return file;
 }
@@ -175,6 +221,7 @@ std::optional<Node> insert_cpg_file(Node& root, const std::string& folder, const
   }
   add_found(in_file, {path, folder, "CPG file", "gaitlab_cpg"}, problems);
   if (!file) return {};
+  rename_changes(root, *file, problems);
   Node made = expanded(*section, *file, problems);
   return std::exchange(root.items[static_cast<std::size_t>(section - root.items.data())], std::move(made));
 }

@@ -16,6 +16,8 @@ struct CpgParameter {
   void fields(Fields& f);
 };
 
+/// A file: equations with parameters, or the `type` and `model` of another CPG. Its keys frequency, amplitude, offset,
+/// phase_lag, couplings and step are defaults for the scenario's section.
 struct CpgFile {
   std::string path, manual;
   std::vector<CpgParameter> parameters;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "core/settings/joint_patterns.h"
 #include "core/settings/reader.h"
 #include "core/settings/value.h"
 #include "core/settings/wording.h"
@@ -40,10 +41,14 @@ void Reader::read_name(const Node& item, const char* key, const field::Names& fi
   } else {
     const bool of_joints = !field.one && (field.among == Among::joints || field.among == Among::motors);
     const JointGroup* group = of_joints ? group_named(reading.value, *groups_) : nullptr;
-    if (group == nullptr) {
-      field.value.push_back(reading.value);
-    } else {
+    std::vector<std::size_t> of_legs;  // a pattern of groups
+    if (of_joints && group == nullptr && joints_ != nullptr && reading.value.starts_with(kLegGroup))
+      of_legs = joints_of(reading.value, *joints_, *groups_);
+    for (const std::size_t j : of_legs) field.value.push_back((*joints_)[j]);
+    if (group != nullptr) {
       field.value.insert(field.value.end(), group->joints.begin(), group->joints.end());
+    } else if (of_legs.empty()) {
+      field.value.push_back(reading.value);
     }
   }
 }

@@ -90,7 +90,7 @@ def main():
         frequency=FREQUENCY,
     )
     path = policy.save("policy.yaml")
-    run = gaitlab.run(scenario.with_({"cpg": {"type": path, "frequency": FREQUENCY}, "duration": 12}))
+    run = gaitlab.run(scenario.with_({"cpg": {"type": path}, "duration": 12}))
     print(f"trained: {way:.3f} m in {SECONDS:.0f} s; {iterations * ENVIRONMENTS} episodes")
     print(f"judged over 12 s: {run.summary['distance'] / 4:.3f} m in 3 s; {run.verdict['verdict']}")
     for check in run.verdict["checks"]:

@@ -31,8 +31,9 @@ class Column(NamedTuple):
 class Truth(Mapping[str, Array]):
     """True quantities, a row per environment: truth["base.position"] is an array (n, 3)."""
 
-    def __init__(self, native: _native.Episodes) -> None:
+    def __init__(self, native: _native.Episodes, copy: bool) -> None:
         self._values = native.truth()
+        self._copy = copy
         self._at: dict[str, tuple[int, int]] = {}
         for k, (name, _) in enumerate(native.true_columns()):
             group = name if name.count(".") == 0 else name[: name.rindex(".")] if name.startswith("base.") else "leg.load"
@@ -42,7 +43,8 @@ class Truth(Mapping[str, Array]):
     def __getitem__(self, name: str) -> Array:
         first, count = self._at[name]
         part = self._values[:, first : first + count]
-        return part.reshape(len(part), *_SHAPES.get(name.rpartition(".")[2], (count,)))
+        part = part.reshape(len(part), *_SHAPES.get(name.rpartition(".")[2], (count,)))
+        return part.copy() if self._copy else part
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._at)
@@ -61,14 +63,16 @@ class Episodes:
     def __init__(self, native: _native.Episodes, n: int, terminate: Any, every: int, record: bool, copy: bool) -> None:
         self._native = native
         self._terminate = terminate
-        self._record, self._copy, self._every = record, copy, every
+        self._record, self._copy = record, copy
+        self.every = every
+        """Control ticks per step."""
         self._observations = native.observations()
         self.n = n
         """Number of environments."""
-        self.truth = Truth(native)
+        self.truth = Truth(native, copy)
         """True quantities at the present tick, for rewards and tests: base.position (m), base.rotation (n x 3 x 3, base axes to world),
         base.velocity (of its origin, m/s), base.angular_velocity (rad/s), energy that the motors have drawn since the start (J),
-        time (s) and leg.load (N, a column per leg). Views, valid until the next call."""
+        time (s) and leg.load (N, a column per leg). Views, valid until the next call, unless copy=True."""
         self.columns: list[Column] = [Column(*one) for one in native.observed()]
         """Names and units of the columns of an observation."""
         self.joints: list[str] = native.driven
@@ -101,7 +105,7 @@ class Episodes:
         return np.array(self.ended == "done", dtype=bool)
 
     def message(self, i: int) -> str:
-        """The reason why environment i ended early, with step and time."""
+        """The reason why environment i ended early, with its time."""
         return self._native.message(self._index(i))
 
     def step(self, action: Any) -> Array:
@@ -262,12 +266,13 @@ def start(
     action: `setpoint` (rad, per joint with a motor, in place of the CPG's), `residual` (rad, added to those of the CPG) or `command`
         (V or N m, in place of the controller's), or a list of them, whose columns follow one another.
     every: control ticks per step.
-    fast: implicit steps of at most 2.5 ms in engine articulated, without an error estimate: for learning. Judge with the scenario's
-        own accuracy.
+    fast: engine articulated with implicit steps of at most 2.5 ms, in place of the scenario's engine, step and accuracy: for learning.
+        run() judges with those of the scenario.
     record: True keeps the set points of each environment, for run() and set_points(); default: True for one environment.
     terminate: `fall` ends an environment when its base tilts by more than limits.tilt from its start; or a function of `truth` that
         returns a truth value per environment.
     copy: True returns new arrays; otherwise the arrays are views, valid until the next call.
+    A reset repeats the noise of its environment; seeds are settings: overrides=[{"seed": k}, ...].
     threads, lanes: as in rollouts(); None for all processors. Neither changes a bit.
     """
     rows = [] if overrides is None else records(overrides)[0]

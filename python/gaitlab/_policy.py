@@ -46,13 +46,15 @@ class Policy:
         scale: Any = 0.3,
         frequency: float = 1.0,
     ) -> None:
+        if envs.parts != ["setpoint"] or envs.every != 1:
+            raise ValueError("a policy needs environments that are stepped by set points, every tick: action=\"setpoint\", every=1")
         self._envs = envs
         observed = [column.name for column in envs.columns]
         self._own = [f"previous.{joint}" for joint in envs.joints] + ["clock.sin", "clock.cos"]
         self.inputs = list(inputs)
         self._columns: list[int] = []
         for pattern in self.inputs:
-            found = [k for k, name in enumerate(observed + self._own) if fnmatch.fnmatchcase(name, pattern)]
+            found = [k for k, name in enumerate(observed + self._own) if fnmatch.fnmatchcase(name, pattern.replace("[", "[[]"))]
             if not found:
                 raise ValueError(f"input {pattern!r} is unknown; expected a column of the observation, previous.JOINT, clock.sin or clock.cos")
             self._columns += found
@@ -67,6 +69,8 @@ class Policy:
             if not (np.all(np.isfinite(weights)) and np.all(np.isfinite(bias))):
                 raise ValueError(f"layer {k} has a number that is not finite")
             width = len(weights)
+        if not self.layers:
+            raise ValueError("layers is empty; expected at least one (weights, bias, activation)")
         if width != motors:
             raise ValueError(f"the last layer gives {width} numbers; the robot has {motors} motors")
         self.mean = np.broadcast_to(np.asarray(mean, dtype=np.float64), (n,))
@@ -74,6 +78,10 @@ class Policy:
         self.centre = np.broadcast_to(np.asarray(centre, dtype=np.float64), (motors,))
         self.scale = np.broadcast_to(np.asarray(scale, dtype=np.float64), (motors,))
         self.clip, self.frequency = float(clip), float(frequency)
+        for name, least, numbers in (("mean", None, self.mean), ("deviation", 1e-300, self.deviation), ("clip", 1e-300, self.clip),
+                                     ("centre", None, self.centre), ("scale", 0, self.scale), ("frequency", 0, self.frequency)):
+            if not np.all(np.isfinite(numbers)) or (least is not None and np.min(numbers) < least):
+                raise ValueError(f"{name} has a number that is not finite" + ("" if least is None else ", negative or 0" if least else " or negative"))
         self.previous = np.zeros((envs.n, motors))
         """The last outputs, a row per environment; 0 after a reset."""
 
@@ -90,7 +98,7 @@ class Policy:
         return self.centre + self.scale * z
 
     def save(self, path: Union[str, "os.PathLike[str]"]) -> str:
-        """Writes a file for `cpg: {type: ./policy.yaml, frequency: F}`. Returns its absolute path."""
+        """Writes a file for `cpg: {type: ./policy.yaml}`. Returns its absolute path."""
         joints = self._envs.joints
         model = {
             "inputs": self.inputs,
@@ -101,7 +109,7 @@ class Policy:
             "centre": {"default": 0, **dict(zip(joints, self.centre.tolist()))},
             "scale": {"default": 0, **dict(zip(joints, self.scale.tolist()))},
         }
-        lines = ["gaitlab_cpg: 1", "type: network", f"manual: A policy for {len(joints)} motors; clock {self.frequency!r} Hz.", "model:"]
+        lines = ["gaitlab_cpg: 1", "type: network", f"manual: A policy for {len(joints)} motors.", f"frequency: {self.frequency!r}", "model:"]
         lines += [f"  {key}: {json.dumps(value)}" for key, value in model.items()]
         with open(path_text(path), "w", encoding="utf-8") as file:
             file.write("\n".join(lines) + "\n")

@@ -49,19 +49,13 @@ struct PyEpisodes {
   std::unique_ptr<kit::Episodes> all;
 };
 
-/// Settings that make a scenario fast to step: implicit steps of at most 2.5 ms, of which whole numbers fill a control period.
-Texts fast_settings(const Scenario& s) {
+/// Settings that make a scenario fast to step: engine articulated with implicit steps of at most 2.5 ms that fill a control
+/// period.
+Texts fast_settings(const Scenario& s, const Catalog& catalog) {
   constexpr double kLongest = 2.5e-3;  // s; docs/python.md has the errors of a gait at this step
-  const Engine* const engine = s.physics.engine->name == "articulated" ? s.physics.engine : nullptr;
-  const Integrator* const implicit = engine == nullptr ? nullptr : engine->integrator("implicit");
-  if (implicit == nullptr) {
-    throw InputError(s.place("physics.engine"),
-                     fmt::format("fast=True needs engine articulated, whose steps can be implicit; this scenario has {}: "
-                                 "Scenario(..., {{\"physics.engine\": \"articulated\"}})",
-                                 s.physics.engine->name));
-  }
+  const Engine& engine = *catalog.engine("articulated");
   const double step = s.control_period / std::ceil(s.control_period / kLongest - 1e-9);
-  Texts sets = engine_settings(s, engine->name, *implicit, fmt::format("{}", step));
+  Texts sets = engine_settings(s, engine.name, *engine.integrator("implicit"), fmt::format("{}", step));
   // A given step must divide the periods of the trace, which is not recorded, and the duration, which ends at a control tick.
   sets.push_back(fmt::format("trace.period={}", step));
   sets.push_back(fmt::format("duration={}", s.control_period * std::ceil(s.duration / s.control_period - 1e-9)));
@@ -85,7 +79,7 @@ std::shared_ptr<PyEpisodes> start(const PyScenario& scenario, const std::vector<
       try {
         Scenario one = made->file->with(own);
         if (fast) {
-          const Texts quick = fast_settings(one);
+          const Texts quick = fast_settings(one, made->file->catalog);
           own.insert(own.end(), quick.begin(), quick.end());
           one = made->file->with(own);
         }
@@ -140,16 +134,18 @@ void restart(PyEpisodes& episodes, const std::vector<std::size_t>& which, const 
   const std::size_t joints = episodes.all->scenario(0).robot->joints.size();
   set(angles, joints, [&](Initial& start, const double* row) { start.angles.each.assign(row, row + joints); });
   set(speeds, joints, [&](Initial& start, const double* row) { start.speeds.each.assign(row, row + joints); });
-  const std::vector<Joint>& all = episodes.all->scenario(0).robot->joints;
   for (std::size_t k = 0; k < starts.size(); ++k) {
     for (std::size_t j = 0; j < joints; ++j) {
       const double angle = starts[k].angles[j];
-      if (angle >= all[j].lo && angle <= all[j].hi) continue;
+      const Joint& joint = episodes.all->scenario(which[k]).robot->joints[j];
+      if (angle >= joint.lo && angle <= joint.hi) continue;
       throw InputError(SourceLocation{"reset"},
-                       fmt::format("angles: joint {} of environment {} is at {:.6g} rad; expected {:.4g} to {:.4g}",
-                                   all[j].name, which[k], angle, all[j].lo, all[j].hi));
+                       fmt::format("angles: joint {} of environment {} is at {:.6g} rad; expected {:.4g} to {:.4g}", joint.name,
+                                   which[k], angle, joint.lo, joint.hi));
     }
   }
+  if (episodes.all->scenario(0).base == Base::fixed && !(velocity.is_none() && angular_velocity.is_none()))
+    throw InputError(SourceLocation{"reset"}, "a velocity of the base is given, but the base is fixed");
   set(velocity, 3, [](Initial& start, const double* row) { start.base_velocity = Vec3(row); });
   set(angular_velocity, 3, [](Initial& start, const double* row) { start.base_angular_velocity = Vec3(row); });
   const py::gil_scoped_release released;
@@ -164,17 +160,28 @@ std::shared_ptr<PyScenario> recorded(const PyEpisodes& episodes, std::size_t i, 
   return with_sets(before, sets);
 }
 
-/// Throws RunError if the run does not end with the pose in which the environment is.
+/// Throws RunError if the run does not end as the environment does: with the same pose, or early.
 void check_end(const PyEpisodes& episodes, std::size_t i, const PyRun& run) {
+  const bool failed = episodes.all->ended(i) == name_of(Ended::diverged);
+  if (failed != (run.recording.outcome.ended == Ended::diverged))
+    throw RunError(fmt::format("the run of the recorded set points is {}, the episode is {}", run.recording.outcome.text(),
+                               failed ? episodes.all->message(i) : "not"));
+  if (failed) return;
+  const RobotState& state = episodes.all->state(i);
+  std::vector<double> pose(state.position.data(), state.position.data() + 3);
+  for (const double x : {state.orientation.w(), state.orientation.x(), state.orientation.y(), state.orientation.z()})
+    pose.push_back(x);
+  pose.insert(pose.end(), state.q.begin(), state.q.end());
   const Trace& poses = run.recording.poses;
-  const In truth = episodes.all->truth().subspan(i * episodes.all->true_columns().size());
   const std::size_t width = poses.columns.size();
-  const In last = In(poses.values).subspan((poses.rows() - 1) * width, width);
-  if (std::equal(truth.begin(), truth.begin() + 3, last.begin() + 1)) return;
-  throw RunError(
-      fmt::format("the run of the recorded set points ends at {:.17g} {:.17g} {:.17g} m, the episode at {:.17g} {:.17g} "
-                  "{:.17g} m; a plugin keeps something outside its states",
-                  last[1], last[2], last[3], truth[0], truth[1], truth[2]));
+  const In last = In(poses.values).subspan((poses.rows() - 1) * width + 1, pose.size());
+  const auto differs = std::ranges::mismatch(pose, last).in1;
+  if (differs == pose.end()) return;
+  const auto k = static_cast<std::size_t>(differs - pose.begin());
+  throw RunError(fmt::format(
+      "the run of the recorded set points ends with {} = {:.17g}, the episode with {:.17g}; a plugin keeps something "
+      "outside its states",
+      poses.columns[k + 1].name, last[k], pose[k]));
 }
 
 }  // namespace

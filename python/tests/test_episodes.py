@@ -142,12 +142,40 @@ class Rows(unittest.TestCase):
             envs.step(np.zeros((2, len(envs.joints))))
         self.assertEqual(list(envs.ended), ["stopped", ""])
         self.assertEqual(list(envs.terminated), [True, False])
-        fallen = gaitlab.start(hexapod(**{"robot.orientation": [1.2, 0, 0]}), 1, terminate="fall")
-        for _ in range(80):
-            if fallen.ended[0]:
-                break
-            fallen.step(np.zeros((1, len(fallen.joints))))
-        self.assertIn(fallen.ended[0], ("stopped", "done", ""))
+        upright = gaitlab.start(hexapod(), 2, terminate="fall")
+        upright.reset(base_angular_velocity=[[0, 0, 0], [14, 0, 0]])  # the second is rolled over
+        for _ in range(90):
+            upright.step(np.zeros((2, len(upright.joints))))
+        self.assertEqual(list(upright.ended), ["", "stopped"])
+        self.assertRegex(upright.message(1), r"stopped by terminate at t = 0\.\d+ s")
+
+    def test_commands_and_several_ticks(self):
+        scenario = hexapod()
+        run = gaitlab.run(scenario)
+        envs = gaitlab.start(scenario, 1, action="command", copy=True)
+        # The commands in force at the row of a tick end with the next tick: rows every 5 ms, ticks every 15 ms.
+        volts = np.array([run.trace[f"joint.{j}.command"][1::3] for j in range(len(scenario.joints))]).T
+        for row in volts[:60]:
+            envs.step(row[None, :])
+        at = list(run.poses["t"]).index(envs.truth["time"][0])
+        self.assertEqual(envs.truth["base.position"][0, 2], run.poses["base.z"][at])
+        one, three = (gaitlab.start(hexapod(duration=0.2), 2, every=every, copy=True) for every in (1, 3))
+        action = np.full((2, len(one.joints)), 0.1)
+        for _ in range(5):  # 14 ticks; the last step ends after two
+            for _ in range(3):
+                if not all(one.ended):
+                    one.step(action)
+            three.step(action)
+        self.assertTrue(np.array_equal(one.observations, three.observations) and list(three.ended) == ["done", "done"])
+
+    def test_the_last_row_is_that_of_a_longer_episode(self):
+        short, long = (gaitlab.start(hexapod(duration=duration), 1, copy=True) for duration in (0.15, 1))
+        for _ in range(10):
+            rows = [envs.step(np.full((1, len(envs.joints)), 0.1)) for envs in (short, long)]
+        self.assertEqual(short.ended[0], "done")
+        self.assertTrue(np.array_equal(*rows))
+        for name in short.truth:
+            self.assertTrue(np.array_equal(short.truth[name], long.truth[name]), name)
 
     def test_memory_does_not_grow(self):
         envs = gaitlab.start(hexapod(duration=1000), 8, fast=True)
@@ -189,7 +217,8 @@ class Policies(InFolder):
         envs = scenario.start()
         policy = self.policy(envs, len(envs.joints))
         policy.save("policy.yaml")
-        saved = scenario.with_({"cpg": {"type": os.path.abspath("policy.yaml"), "frequency": 0.7}})
+        saved = scenario.with_({"cpg": {"type": os.path.abspath("policy.yaml")}})
+        self.assertIn("frequency: 0.7", saved.resolved)
         self.assertIn("type: network", saved.resolved)
         run = gaitlab.run(saved)
         first = policy.act()
@@ -228,9 +257,10 @@ class Refused(unittest.TestCase):
         self.check(rf"action has the shape \(2, {joints + 1}\); expected \(2, {joints}\): driven joints m0/", lambda: envs.step(np.zeros((2, joints + 1))))
         bad = good.copy()
         bad[1, 3] = np.nan
+        self.check("beyond 10000", lambda: envs.reset(speeds=np.full(len(hexapod().joints), 1e9)))
         self.check(r"action\[1, 3\] is nan \(joint ", lambda: envs.step(bad), gaitlab.InputError)
         bad[1, 3] = 57.3
-        self.check(r"set point of .* is 57.3 rad.* 57.3 degrees are 1 rad", lambda: envs.step(bad), gaitlab.InputError)
+        self.check(r"action\[1\]: the set point of .* is 57.3 rad.* 57.3 degrees are 1 rad", lambda: envs.step(bad), gaitlab.InputError)
         self.check(r"reset\(mask\): expected 2 truth values, got int64 of \(3,\)", lambda: envs.reset(np.zeros(3, dtype=int)))
         self.check("record=True", lambda: envs.run(0))
         self.check("angles: joint .* of environment 1 is at 3 rad; expected -1.571 to 1.571", lambda: envs.reset([False, True], angles=3 * np.ones(len(hexapod().joints))), gaitlab.InputError)
@@ -242,7 +272,8 @@ class Refused(unittest.TestCase):
         self.check("2 rows for 3 environments", lambda: gaitlab.start(hexapod(), 3, overrides=[{}, {}]))
         self.check(r"overrides\[1\]: error: changes physics", lambda: gaitlab.start(hexapod(), overrides=[{}, {"physics.step": 1e-4}]), gaitlab.InputError)
         self.check(r"ground.frction=1: error: overrides\[1\]: unknown key", lambda: gaitlab.start(hexapod(), overrides=[{}, {"ground.frction": 1}]), gaitlab.InputError)
-        self.check("fast=True needs engine articulated", lambda: gaitlab.start(gaitlab.Scenario("caterpillar", {"physics.engine": "bullet"}), fast=True), gaitlab.InputError)
+        bullet = gaitlab.start(gaitlab.Scenario("caterpillar", {"physics.engine": "bullet"}), fast=True)  # steps in the other engine
+        bullet.step(np.zeros((1, len(bullet.joints))))
         for _ in range(110):
             if "" not in list(envs.ended):
                 break

@@ -14,7 +14,7 @@ ROOMS = ['app', 'core/scenario', 'golden', 'report', 'studies']
 SEARCH = re.compile(r'[.](r?find|contains|starts_with|ends_with)\("((?:[^"\\]|\\.)*[A-Za-z]{2}(?:[^"\\]|\\.)*)"(?=([^;]*))')
 ALLOWED = {  # by the name of the file: number of searches, reason
     'candidates.cpp': (1, 'placeholder in the path of a key'),
-    'cpg_file.cpp': (1, 'ending of a file'),
+    'cpg_file.cpp': (2, 'ending of a file'),
     'command_line.cpp': (2, 'types of CLI11'), 'command_tree.cpp': (3, 'types of CLI11'), 'compare.cpp': (1, 'name of a number'),
     'curves_panel.cpp': (1, 'name of a column'), 'explain.cpp': (1, 'ending of a file'), 'journal_head.cpp': (2, 'kinds in a journal'),
     'listed_kinds.cpp': (2, 'comment of a shipped file'), 'plan_checks.cpp': (2, 'path of a key'), 'quantities.cpp': (1, 'name of a number'),

@@ -117,7 +117,7 @@ TEST(LoadSensor, MeasuresJointsAndLegs) {
   settings.joints = {"m1/*"};
   Bench<LoadSensor> bench(settings);
   EXPECT_EQ(bench.tick(), (std::vector<double>{6}));
-  EXPECT_EQ(bench.sensor.readings()[0].column, "sensor.s.m1/h");
+  EXPECT_EQ(bench.sensor.readings()[0].column, "sensor.s.m1/h.link");
   EXPECT_EQ(bench.sensor.readings()[0].replaces, Replaces::load);
   EXPECT_EQ(bench.sensor.readings()[0].part, 1U);
 
