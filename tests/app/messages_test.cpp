@@ -221,7 +221,7 @@ TEST_F(Messages, ContactsThatMjcfCannotHold) {
   const Result soft = call("export '" + kScenarios + "hexapod.yaml'" + robot + "1");
   EXPECT_EQ(soft.code, 2);
   EXPECT_TRUE(
-      soft.err.ends_with("--set contact.stiffness=1: error: 1 does not carry the robot: its weight is 43.2 N; "
+      soft.err.ends_with("--set contact.stiffness=1: error: 1 N/m is too soft to carry the robot of 43.2 N; "
                          "expected stiffer contacts, or --strict\n"))
       << soft.err;
   const Result deep = call("export '" + kScenarios + "library/linkbot-drive.yaml'" + robot + "1000 --set contact.exponent=3");
