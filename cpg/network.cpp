@@ -14,7 +14,7 @@ namespace gaitlab::cpg {
 const char* const Network::kManual =
     R"(A feed-forward network from measured values to set points, such as a policy that was learned.
 
-    z = clamp((u - mean) / deviation, -clip, clip),   z <- act(W z + b) layer by layer,   theta = centre + scale z
+    z = clamp((u - mean) / deviation, -clip, clip),   z = act(W z + b) layer by layer,   theta = centre + scale z
 
 u: the inputs, at the control tick. z of the last layer has a number per joint with a motor, in their order, and is held until the
 next tick (states y.J). Without layers z is 0. Sums run over the columns of W from the first to the last.
@@ -24,17 +24,17 @@ inputs      angle.JOINT rad, speed.JOINT rad/s, torque.JOINT N m, load.JOINT N (
             any, in the order of the robot: angle.*
 activation  tanh, relu (max(0, z)), elu (z, or exp(z) - 1 below 0), none
 
-A policy file for `cpg: {type: ./policy.yaml}` has the keys `gaitlab_cpg: 1`, `type: network` and `model`; gaitlab.Policy of the Python package
-writes one. Another program that computes the same network agrees to about 1e-12 in the first tick, and from then on as far
-as the motion is predictable. Learned gaits are judged like any other.
+Each layer is {weights: [[...], ...], bias: [...], activation: tanh}: a row of weights per output. A policy file for `cpg: {type:
+./policy.yaml}` has the keys `gaitlab_cpg: 1`, `type: network`, `frequency` and `model`; gaitlab.Policy of the Python package writes one. Another
+program that computes the same network agrees to about 1e-12 in the first tick, and from then on as far as the motion is
+predictable. Learned gaits are judged like any other.
+Reference: the policies of Mania, Guy, Recht, NeurIPS 2018, and of the usual libraries for learning.
 
     cpg:
       type: network
       frequency: 1
       model:
-        inputs: [clock.sin, clock.cos]
-        layers:
-          - {weights: [[0, 1], [1, 0]], bias: [0, 0], activation: none}
+        inputs: ["angle.*", "speed.*", clock.sin, clock.cos]
         scale: 0.4)";
 
 namespace {

@@ -98,13 +98,13 @@ void Table::Model::fields(Fields& f) {
            {"s", 0, 1e6,
             "Duration of the start, in which the motion about the first row grows linearly from 0; without "
             "initial.angles the robot starts at the first row."});
-  f.number("period", period,
+  f.number("cycle", cycle,
            {"s", 0, 1e6, "Period of a motion that the rows repeat by themselves, for the judgement of the run; 0: none."});
 }
 
 Table::Table(const RobotInfo& robot, const Settings& settings)
     : frames_(robot, keyframes_of(robot, settings.model)),
-      period_(settings.model.period),
+      cycle_(settings.model.cycle),
       hold_(settings.model.interpolation == Keyframes::Interpolation::hold) {}
 
 std::string Table::note() const { return hold_ ? "the set points are a recording: nothing in the run acts on them" : ""; }

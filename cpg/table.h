@@ -14,7 +14,7 @@ class Table final : public Cpg {
     std::vector<JointColumn> columns;
     Keyframes::Interpolation interpolation = Keyframes::Interpolation::spline;
     bool repeat = true;
-    double ramp = 0, period = 0;
+    double ramp = 0, cycle = 0;
     void fields(Fields& f);
   };
   struct Settings {
@@ -30,13 +30,13 @@ class Table final : public Cpg {
   void output(double t, In state, Out setpoint) const override { frames_.output(t, state, setpoint); }
   [[nodiscard]] SetPointTimes times() const override {
     const SetPointTimes own = frames_.times();
-    return {period_ > 0 ? period_ : own.period, own.full_size};
+    return {cycle_ > 0 ? cycle_ : own.period, own.full_size};
   }
   [[nodiscard]] std::string note() const override;
 
  private:
   Keyframes frames_;
-  double period_;
+  double cycle_;
   bool hold_;
 };
 

@@ -43,7 +43,7 @@ std::vector<std::string> recorded_settings(const Scenario& s, const std::vector<
     return all;
   };
   const auto vector = [&](const Vec3& v) { return list(std::vector<double>(v.data(), v.data() + 3)); };
-  return {fmt::format("cpg={{type: table, model: {{interpolation: hold, repeat: false, period: {}, file: \"{}\\n\"}}}}", period,
+  return {fmt::format("cpg={{type: table, model: {{interpolation: hold, repeat: false, cycle: {}, file: \"{}\\n\"}}}}", period,
                       table),
           fmt::format("initial={{angles: {}, speeds: {}, base_velocity: {}, base_angular_velocity: {}}}",
                       list(of_joints(start.angles)), list(of_joints(start.speeds)), vector(start.base_velocity),

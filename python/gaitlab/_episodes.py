@@ -4,6 +4,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, Callable, Iterable, Iterator, Mapping, NamedTuple, Sequence, Union
 
 import numpy as np
+import numpy.typing as npt
 
 from . import _native
 from ._run import Run
@@ -16,7 +17,7 @@ if TYPE_CHECKING:
 
     import pandas
 
-Array = "np.ndarray[Any, np.dtype[Any]]"
+Array = npt.NDArray[Any]
 _PARTS = ("setpoint", "residual", "command")
 _SHAPES = {"rotation": (3, 3), "energy": (), "time": ()}
 
@@ -42,7 +43,7 @@ class Truth(Mapping[str, Array]):
 
     def __getitem__(self, name: str) -> Array:
         first, count = self._at[name]
-        part = self._values[:, first : first + count]
+        part: Array = self._values[:, first : first + count]
         part = part.reshape(len(part), *_SHAPES.get(name.rpartition(".")[2], (count,)))
         return part.copy() if self._copy else part
 
@@ -63,6 +64,7 @@ class Episodes:
     def __init__(self, native: _native.Episodes, n: int, terminate: Any, every: int, record: bool, copy: bool) -> None:
         self._native = native
         self._terminate = terminate
+        self._running = True
         self._record, self._copy = record, copy
         self.every = every
         """Control ticks per step."""
@@ -185,7 +187,8 @@ class Episodes:
 
     def set_points(self, i: int = 0) -> Array:
         """Set points of environment i since its start, rad: a row per control tick, a column per joint. Needs record=True."""
-        return self._native.set_points(self._index(i))
+        made: Array = self._native.set_points(self._index(i))
+        return made
 
     def __len__(self) -> int:
         return self.n
@@ -194,7 +197,8 @@ class Episodes:
         return f"<gaitlab.Episodes, {self.n} environments of {len(self.joints)} motors>"
 
     def _out(self) -> Array:
-        return self._observations.copy() if self._copy else self._observations
+        now: Array = self._observations
+        return now.copy() if self._copy else now
 
     def _begin(self, chosen: Array) -> None:
         self._running = True

@@ -4,7 +4,7 @@ from __future__ import annotations
 import fnmatch
 import json
 import os
-from typing import TYPE_CHECKING, Any, Sequence, Union
+from typing import TYPE_CHECKING, Any, Callable, Sequence, Union
 
 import numpy as np
 
@@ -13,7 +13,7 @@ from ._settings import path_text
 if TYPE_CHECKING:
     from ._episodes import Episodes
 
-_ACTIVATIONS = {
+_ACTIVATIONS: dict[str, Callable[[Any], Any]] = {
     "tanh": np.tanh,
     "relu": lambda z: np.maximum(z, 0.0),
     "elu": lambda z: np.where(z > 0, z, np.exp(np.minimum(z, 0.0)) - 1),
@@ -78,8 +78,15 @@ class Policy:
         self.centre = np.broadcast_to(np.asarray(centre, dtype=np.float64), (motors,))
         self.scale = np.broadcast_to(np.asarray(scale, dtype=np.float64), (motors,))
         self.clip, self.frequency = float(clip), float(frequency)
-        for name, least, numbers in (("mean", None, self.mean), ("deviation", 1e-300, self.deviation), ("clip", 1e-300, self.clip),
-                                     ("centre", None, self.centre), ("scale", 0, self.scale), ("frequency", 0, self.frequency)):
+        checked: list[tuple[str, Union[float, None], Any]] = [
+            ("mean", None, self.mean),
+            ("deviation", 1e-300, self.deviation),
+            ("clip", 1e-300, self.clip),
+            ("centre", None, self.centre),
+            ("scale", 0, self.scale),
+            ("frequency", 0, self.frequency),
+        ]
+        for name, least, numbers in checked:
             if not np.all(np.isfinite(numbers)) or (least is not None and np.min(numbers) < least):
                 raise ValueError(f"{name} has a number that is not finite" + ("" if least is None else ", negative or 0" if least else " or negative"))
         self.previous = np.zeros((envs.n, motors))

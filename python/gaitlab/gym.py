@@ -4,6 +4,7 @@ from __future__ import annotations
 from typing import Any, Callable, Mapping, Union
 
 import numpy as np
+import numpy.typing as npt
 
 try:
     import gymnasium
@@ -15,7 +16,7 @@ except ImportError as error:
 from ._episodes import Episodes, Truth, start
 from ._scenario import Scenario, scenario_of
 
-Array = "np.ndarray[Any, np.dtype[Any]]"
+Array = npt.NDArray[Any]
 Reward = Callable[[Any, Truth, Any, Any], Any]
 
 
@@ -43,7 +44,7 @@ class _Stepped:
     def __init__(self, scenario: Union[Scenario, str], n: int, reward: Union[Reward, None], settings: Mapping[str, Any]) -> None:
         self.scenario = scenario_of(scenario)
         self.envs: Episodes = start(self.scenario, n, copy=True, **settings)
-        self._reward = _Progress(self.scenario) if reward is None else reward
+        self._reward: Reward = reward or _Progress(self.scenario)
         ranges = self.scenario.check().ranges
         low, high = (np.array([float(np.clip(ranges[joint][side], -3.2, 3.2)) for joint in self.envs.joints]) for side in (0, 1))
         parts = self.envs.parts
