@@ -168,6 +168,7 @@ std::string explain_word(const std::string& word, Catalog& catalog) {
   if (const std::optional<FileKind> kind = kind_of_file(word)) {
     if (*kind == FileKind::module) return module_manual(word, catalog);
     if (*kind == FileKind::servo) return servo_manual(word, catalog);
+    if (*kind == FileKind::cpg) return cpg_manual(word);
     throw InputError(SourceLocation{word}, "has no manual" + but_it_is(word));
   }
   if (std::string text = explain_part(word); !text.empty()) return text;
@@ -195,6 +196,7 @@ std::string explain_named(const std::string& kind_name, const std::string& name,
     return kind->name == "module" ? module_manual(name, catalog) : servo_manual(name, catalog);
   }
   if (known) return kind->manual(name, catalog);
+  if (kind->name == "cpg" && file && kind_of_file(name) == FileKind::cpg) return cpg_manual(name);
   const bool plugin = find_kind(kind->name) != nullptr && !plugins;
   refuse_unknown("explain", kind->name, name, names,
                  own_files ? fmt::format("; name a {} that you wrote by its file", kind->name == "module" ? "type" : "servo")

@@ -41,9 +41,9 @@ ListedKind of_plugins(const PluginKind& plugin) {
           }};
 }
 
-CpgFile cpg_file(const std::string& name) {
+CpgFile cpg_file(const std::string& path) {
   Problems problems;
-  std::optional<CpgFile> file = read_cpg_file(shipped_file("cpg", name), {}, problems);
+  std::optional<CpgFile> file = read_cpg_file(path, {}, problems);
   problems.raise();
   return std::move(*file);
 }
@@ -62,12 +62,11 @@ ListedKind of_cpgs(const PluginKind& plugin) {
     return names;
   };
   kind.about = [about = kind.about, is_plugin](const std::string& name, Catalog& catalog) {
-    return is_plugin(name, catalog) ? about(name, catalog) : first_line(cpg_file(name).manual) + " (equations)";
+    return is_plugin(name, catalog) ? about(name, catalog)
+                                    : first_line(cpg_file(shipped_file("cpg", name)).manual) + " (equations)";
   };
   kind.manual = [manual = kind.manual, is_plugin](const std::string& name, Catalog& catalog) {
-    if (is_plugin(name, catalog)) return manual(name, catalog);
-    const CpgFile file = cpg_file(name);
-    return manual_of(file) + "file: " + file.path + "\n";
+    return is_plugin(name, catalog) ? manual(name, catalog) : cpg_manual(shipped_file("cpg", name));
   };
   return kind;
 }
@@ -164,6 +163,8 @@ std::vector<ListedKind> all_kinds() {
 std::string servo_manual(const std::string& file, const Catalog& catalog) {
   return fmt::format("{}file: {}\n", servo_table(file, head_comment(read_text(file)), catalog), file);
 }
+
+std::string cpg_manual(const std::string& file) { return manual_of(cpg_file(file)) + "file: " + file + "\n"; }
 
 const std::vector<ListedKind>& listed_kinds() {
   static const std::vector<ListedKind> kAll = all_kinds();

@@ -30,6 +30,9 @@ std::string name_rows(const ListedKind& kind, Catalog& catalog);
 [[noreturn]] void refuse_unknown(const std::string& command, const std::string& what, const std::string& found,
                                  const std::vector<std::string>& known, const std::string& hint = "");
 
+/// Manual of a CPG file.
+std::string cpg_manual(const std::string& file);
+
 /// Manual of the module type in a file.
 std::string module_manual(const std::string& file, Catalog& catalog);
 
