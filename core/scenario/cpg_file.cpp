@@ -21,6 +21,9 @@ constexpr const char* kEquations = "equations";
 /// Parts of the model that a file states; `parameters` become those of the file.
 constexpr std::array kModelParts{"states", "initial", "output", "inputs", "events"};
 
+/// Keys of the section that are not parameters of the file.
+constexpr std::array kOfSection{"type", "model", "step", "frequency", "amplitude", "offset", "phase_lag", "couplings"};
+
 Node scalar(std::string text, const SourceLocation& place) {
   Node node{Node::Kind::scalar, place};
   node.text = std::move(text);
@@ -131,6 +134,10 @@ Node expanded(const Node& section, const CpgFile& file, Problems& problems) {
           put(model, part, value.items[k]);
         }
       }
+    } else if (std::ranges::find(kOfSection, key) == kOfSection.end()) {
+      std::vector<std::string> known;
+      for (const CpgParameter& one : file.parameters) known.push_back(one.name);
+      problems.add(place, fmt::format("unknown key {}{}", in_quotes(key), offer(key, known, "parameters of the file")));
     } else {
       put(made, key, key == "type" ? scalar(kEquations, value.place) : value);
     }
@@ -163,7 +170,6 @@ void CpgParameter::fields(Fields& f) {
 std::optional<CpgFile> read_cpg_file(const std::string& path, const SourceLocation& asked_at, Problems& problems) {
   expect_kind(path, FileKind::cpg);
   CpgFile file{path, {}, {}, read_yaml(path, asked_at)};
-  constexpr std::array kOfSection{"type", "model", "step", "frequency", "amplitude", "offset", "phase_lag", "couplings"};
   const std::size_t before = problems.size();
   Reader reader(file.text, "CPG file", problems, nullptr);
   reader.version("gaitlab_cpg");

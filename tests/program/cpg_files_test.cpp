@@ -169,6 +169,20 @@ TEST(CpgFiles, ParametersAreKeysAndTheResolvedScenarioHasTheEquations) {
   EXPECT_TRUE(contains(with_files(kRateFile, "{type: ./own.yaml, mu: {default: 1, m0/active: 5}}"), "mu: [5, 1]"));
 }
 
+TEST(CpgFiles, ParametersInAtAreThoseOfTheFile) {
+  const std::string change = "{type: ./own.yaml}\nat: [{t: 0.5, set: {cpg.mu: ";
+  EXPECT_TRUE(contains(with_files(kRateFile, change + "5}}]"), "cpg.model.parameters.mu: 5"));
+  EXPECT_TRUE(contains(with_files(kRateFile, change + "50}}]"), "mu is 50 1/s; expected 0 to 10"));
+}
+
+TEST(CpgFiles, AFileMayNameAnotherTypeAndDefaults) {
+  const std::string file = "gaitlab_cpg: 1\ntype: sine\nfrequency: 0.7\nmodel: {ramp: 2}\n";
+  const std::string text = with_files(file, "{type: ./own.yaml}");
+  EXPECT_TRUE(contains(text, "type: sine") && contains(text, "frequency: 0.7") && contains(text, "ramp: 2")) << text;
+  EXPECT_TRUE(contains(with_files(file, "{type: ./own.yaml, frequency: 0.3}"), "frequency: 0.3"));
+  EXPECT_TRUE(contains(with_files("gaitlab_cpg: 1\ntype: sine\n", "{type: ./own.yaml}"), "missing key 'model'"));
+}
+
 TEST(CpgFiles, FaultsAreRefusedAtTheirPlace) {
   const auto refused = [](const std::string& file, const std::string& section, const std::string& text) {
     const std::string found = with_files(file, section);
@@ -178,7 +192,10 @@ TEST(CpgFiles, FaultsAreRefusedAtTheirPlace) {
   refused(kRateFile, "{type: ./own.yaml, mu: fast}", "test.yaml:5:29: error: mu is 'fast'; expected a number");
   refused(kRateFile, "{type: ./other.yaml}", "other.yaml");
   refused(kRateFile, "{type: ./own.yaml, model: {states: {x: 1}}}", "model.states is stated by");
-  refused(kRateFile, "{type: ./own.yaml, ampl: 1}", "ampl");
+  refused(kRateFile, "{type: ./own.yaml, ampl: 1}", "unknown key 'ampl'; known parameters of the file: mu");
+  refused(kRateFile, "{type: ./own.yaml, muu: 1}", "unknown key 'muu'; did you mean 'mu'?");
+  refused("gaitlab_cpg: 1\nparameters: {step: {value: 1}}\nstates: {x: step}\noutput: x\n", "{type: ./own.yaml}",
+          "own.yaml:2:14: error: 'step' is a key of cpg itself");
   refused("gaitlab_cpg: 2\nstates: {x: 1}\noutput: x\n", "{type: ./own.yaml}", "own.yaml:1:14");
   refused("gaitlab_cpg: 1\nstates: {x: 1}\n", "{type: ./own.yaml}", "output");
   refused("gaitlab_cpg: 1\nstates: {phi: omega*nu}\noutput: phi\n", "{type: ./own.yaml}",
