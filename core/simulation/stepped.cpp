@@ -13,7 +13,7 @@ namespace gaitlab {
 namespace {
 
 constexpr std::size_t kClock = 3;    // numbers of save() before those of each(): steps, ended, measured
-constexpr double kMostSteps = 1e15;  // of a clock that is read
+constexpr double kLatestStep = 1e15;  // of a clock that is read
 
 }  // namespace
 
@@ -138,7 +138,7 @@ bool SteppedLanes::fits(std::size_t lane, In from) const {
     after += values->size();
   const std::size_t changes = from.size() - after - own.changes.states();
   const double segments = static_cast<double>(own.changes.segments()) - 1;
-  return whole(from[0], kMostSteps) && whole(from[1], 1) && whole(from[2], 1) &&
+  return whole(from[0], kLatestStep) && whole(from[1], 1) && whole(from[2], 1) &&
          (own.changes.states() == 0 || whole(from[changes], segments));
 }
 
