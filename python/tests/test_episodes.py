@@ -142,8 +142,8 @@ class Rows(unittest.TestCase):
             envs.step(np.zeros((2, len(envs.joints))))
         self.assertEqual(list(envs.ended), ["stopped", ""])
         self.assertEqual(list(envs.terminated), [True, False])
-        upright = gaitlab.start(hexapod(), 2, terminate="fall")
-        upright.reset(base_angular_velocity=[[0, 0, 0], [14, 0, 0]])  # the second is rolled over
+        upright = gaitlab.start(hexapod(**{"limits.tilt": 0.05}), 2, terminate="fall")
+        upright.reset(base_velocity=[[0, 0, 0], [0, 0, 2]], base_angular_velocity=[[0, 0, 0], [3, 0, 0]])  # the second is thrown
         for _ in range(90):
             upright.step(np.zeros((2, len(upright.joints))))
         self.assertEqual(list(upright.ended), ["", "stopped"])
@@ -154,7 +154,7 @@ class Rows(unittest.TestCase):
         run = gaitlab.run(scenario)
         envs = gaitlab.start(scenario, 1, action="command", copy=True)
         # The commands in force at the row of a tick end with the next tick: rows every 5 ms, ticks every 15 ms.
-        volts = np.array([run.trace[f"joint.{j}.command"][1::3] for j in range(len(scenario.joints))]).T
+        volts = np.array([run.trace[f"joint.{j}.voltage_command"][1::3] for j in range(len(scenario.joints))]).T
         for row in volts[:60]:
             envs.step(row[None, :])
         at = list(run.poses["t"]).index(envs.truth["time"][0])
