@@ -12,7 +12,7 @@ namespace gaitlab {
 
 namespace {
 
-constexpr std::size_t kClock = 3;    // numbers of save() before those of each(): steps, ended, measured
+constexpr std::size_t kClock = 3;     // numbers of save() before those of each(): steps, ended, measured
 constexpr double kLatestStep = 1e15;  // of a clock that is read
 
 }  // namespace
