@@ -41,13 +41,12 @@ void Reader::read_name(const Node& item, const char* key, const field::Names& fi
   } else {
     const bool of_joints = !field.one && (field.among == Among::joints || field.among == Among::motors);
     const JointGroup* group = of_joints ? group_named(reading.value, *groups_) : nullptr;
-    std::vector<std::size_t> of_legs;  // a pattern of groups
-    if (of_joints && group == nullptr && joints_ != nullptr && reading.value.starts_with(kLegGroup))
-      of_legs = joints_of(reading.value, *joints_, *groups_);
-    for (const std::size_t j : of_legs) field.value.push_back((*joints_)[j]);
     if (group != nullptr) {
       field.value.insert(field.value.end(), group->joints.begin(), group->joints.end());
-    } else if (of_legs.empty()) {
+    } else if (of_joints && joints_ != nullptr && reading.value.starts_with(kLegGroup)) {  // a pattern of groups
+      const std::vector<std::string> meant = joints_meant({reading.value}, *joints_, *groups_);
+      field.value.insert(field.value.end(), meant.begin(), meant.end());
+    } else {
       field.value.push_back(reading.value);
     }
   }
