@@ -111,9 +111,10 @@ Network::Network(const RobotInfo& robot, const Settings& settings) : s_(settings
       refuse(name, " has " + std::to_string(width) + " rows of weights and " + std::to_string(layer.bias.size()) + " biases");
     most = std::max(most, width);
   }
-  if (!s_.model.layers.empty() && width != driven_.size())
+  if (!s_.model.layers.empty() && width != driven_.size()) {
     refuse("layers", ": the last layer gives " + std::to_string(width) + " numbers; the robot has " +
                          std::to_string(driven_.size()) + " motors");
+  }
   values_.resize(most);
   outputs_.resize(most);
 }

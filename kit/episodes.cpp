@@ -174,9 +174,10 @@ std::string Episodes::problem_of(In actions) const {
   for (std::size_t i = 0; i < size(); ++i) {
     const In own = actions.subspan(i * row, row);
     for (std::size_t k = 0; k < row; ++k) {
-      if (!std::isfinite(own[k]))
+      if (!std::isfinite(own[k])) {
         return fmt::format("action[{}, {}] is {} (joint {})", i, k, own[k],
                            scenarios_[i].robot->joints[driven_[k % motors]].name);
+      }
     }
     for (std::size_t d = 0; angles && ended_[i] == 0 && d < motors; ++d) {
       const Joint& joint = scenarios_[i].robot->joints[driven_[d]];

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/errors.h"
 
@@ -17,13 +18,15 @@ std::vector<std::string> recorded_settings(const Scenario& s, const std::vector<
   if (rows == 0) refuse_set_points("the episode has no set points; expected at least one step with record=True");
   if (set_points.size() > kMost) {
     refuse_set_points(fmt::format("the episode has {} set points; a scenario contains at most {}: end it after {:.4g} s",
-                                  set_points.size(), kMost, static_cast<double>(kMost / joints) * s.control_period));
+                                  set_points.size(), kMost,
+                                  std::floor(static_cast<double>(kMost) / static_cast<double>(joints)) * s.control_period));
   }
   for (const Change& change : s.changes) {
     const auto of_cpg = [](const auto& key) { return key.first == "cpg" || key.first.starts_with("cpg."); };
-    if (std::ranges::any_of(change.set.keys, of_cpg))
+    if (std::ranges::any_of(change.set.keys, of_cpg)) {
       refuse_set_points(
           fmt::format("the CPG changes at {} s (section `at`); set points that are recorded replace it", change.t));
+    }
   }
   std::string table = "time";
   for (std::size_t j = 0; j < joints; ++j) {

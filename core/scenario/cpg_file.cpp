@@ -191,9 +191,10 @@ std::optional<CpgFile> read_cpg_file(const std::string& path, const SourceLocati
   for (const char* const key : kOfSection) reader.take(key);  // defaults of the scenario's section
   reader.finish();
   for (const CpgParameter& one : file.parameters) {
-    if (std::ranges::find(kOfSection, one.name) != kOfSection.end())
+    if (std::ranges::find(kOfSection, one.name) != kOfSection.end()) {
       problems.add(place_of_parameter(file, one.name),
                    fmt::format("{} is a key of cpg itself; expected another name", in_quotes(one.name)));
+    }
   }
   if (problems.size() > before) return {};
   return file;

@@ -163,9 +163,10 @@ std::shared_ptr<PyScenario> recorded(const PyEpisodes& episodes, std::size_t i, 
 /// Throws RunError if the run does not end as the environment does: with the same pose, or early.
 void check_end(const PyEpisodes& episodes, std::size_t i, const PyRun& run) {
   const bool failed = episodes.all->ended(i) == name_of(Ended::diverged);
-  if (failed != (run.recording.outcome.ended == Ended::diverged))
+  if (failed != (run.recording.outcome.ended == Ended::diverged)) {
     throw RunError(fmt::format("the run of the recorded set points is {}, the episode is {}", run.recording.outcome.text(),
                                failed ? episodes.all->message(i) : "not"));
+  }
   if (failed) return;
   const RobotState& state = episodes.all->state(i);
   std::vector<double> pose(state.position.data(), state.position.data() + 3);
