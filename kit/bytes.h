@@ -58,7 +58,7 @@ class Bytes {
     return count;
   }
   void take(void* to, std::size_t bytes) {
-    std::memcpy(to, rest_.data(), bytes);
+    if (bytes > 0) std::memcpy(to, rest_.data(), bytes);  // an empty vector has no address
     rest_.remove_prefix(bytes);
   }
   std::string_view rest_;
