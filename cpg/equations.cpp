@@ -235,9 +235,8 @@ std::vector<std::size_t> channels_of(const RobotInfo& robot, const std::vector<s
     const auto at = std::ranges::find(robot.channels, name);
     if (at == robot.channels.end()) {
       throw std::invalid_argument("'" + name.substr(0, 80) + "' is unknown" +
-                                  (robot.channels.empty()
-                                       ? std::string("; this scenario has no sensors with values of their own")
-                                       : offer_name(name, robot.channels, "values of sensors")));
+                                  (robot.channels.empty() ? std::string("; no sensor of this scenario gives such values")
+                                                          : offer_name(name, robot.channels, "values of sensors")));
     }
     found.push_back(static_cast<std::size_t>(at - robot.channels.begin()));
   }

@@ -5,7 +5,7 @@
 
 namespace gaitlab::cpg {
 
-/// A change of states at the control tick at which a condition becomes true, for each joint by itself.
+/// A change of states when a condition becomes true, for each joint separately.
 struct EquationEvent {
   std::string when;
   std::vector<Named> set;            ///< new values of states

@@ -142,7 +142,7 @@ void Network::add_inputs(const RobotInfo& robot, const std::string& wanted) {
   refuse("inputs", ": '" + wanted.substr(0, 80) +
                        "' is unknown; expected angle, speed, torque, load or previous with a joint, touching with a module, "
                        "clock.sin, clock.cos" +
-                       (known.empty() ? std::string(", or the value of a sensor, of which it has none") : known));
+                       (known.empty() ? std::string("; no sensor of this scenario gives values") : known));
 }
 
 double Network::value(const Input& input, const Measured& m, In state) const {

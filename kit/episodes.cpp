@@ -112,9 +112,7 @@ Episodes::Episodes(std::vector<Scenario> scenarios, EpisodeSettings settings)
   for (const Leg& leg : legs) leg_bodies_.emplace_back(leg.bodies.begin(), leg.bodies.end());
   observed_ = observed_columns(scenarios_[0]);
   true_columns_ = columns_of_truth(legs);
-  for (const Scenario& one : scenarios_) {
-    starts_.push_back(one.initial);
-  }
+  for (const Scenario& one : scenarios_) starts_.push_back(one.initial);
   const std::size_t n = scenarios_.size();
   observations_.resize(n * observed_.size());
   truth_.resize(n * true_columns_.size());
@@ -225,7 +223,7 @@ void Episodes::step_group(std::size_t g, In actions) {
       const bool given = outcomes_[i].ended != Ended::plugin;  // a plugin that threw gave no set points
       if (settings_.record && given) kept_[i].insert(kept_[i].end(), asked.begin(), asked.end());
       ended_[i] = own.ended(l) ? 1 : 0;
-      // A lane that has failed is at its start again; its last numbers are those of the tick before.
+      // A failed lane is at its start again; its last rows are from the tick before.
       if (outcomes_[i].done()) read(i);
     }
   }
@@ -285,7 +283,7 @@ bool Episodes::running() const { return std::ranges::find(ended_, char{0}) != en
 
 std::string Episodes::ended(std::size_t i) const { return ended_[i] == 0 ? "" : name_of(outcomes_[i].ended); }
 
-/// First line of a snapshot: what it fits.
+/// First line of a snapshot, equal for environments that it fits.
 std::string Episodes::head() const {
   std::uint64_t state = kFnvOffset;
   for (const Scenario& one : scenarios_) state = fnv1a(resolved(one), state);

@@ -28,7 +28,7 @@ namespace kit {
 
 struct EpisodeSettings {
   std::vector<ActionPart> action{ActionPart::setpoint};
-  std::int64_t every = 1;  ///< control ticks for which an action holds
+  std::int64_t every = 1;  ///< control ticks per action
   int threads = 1;
   std::size_t lanes = 0;  ///< as BatchSettings::lanes
   bool record = false;    ///< true if set points are kept for set_points()
@@ -39,10 +39,10 @@ struct EpisodeColumn {
   std::string name, unit;
 };
 
-/// Environments, one per scenario, which share engine, step, control period and structure of the robot (can_share). Each runs
-/// with the bits that it would have alone, for any number of threads, lanes and other environments. An environment that has
-/// ended keeps its last rows until restart(). Throws InputError whose place is `overrides[i]` for a scenario that does not fit
-/// the first one, InputError for a robot without motors, and the errors of SteppedLanes.
+/// Environments, one per scenario. They share engine, step, control period and structure of the robot (can_share). An
+/// environment has the same bits alone and beside any others, for any number of threads and lanes. After its end it keeps its
+/// last rows until restart(). An object belongs to one thread at a time. Throws InputError at `overrides[i]` for a scenario
+/// that does not fit the first one, InputError for a robot without motors, and the errors of SteppedLanes.
 class Episodes {
  public:
   Episodes(std::vector<Scenario> scenarios, EpisodeSettings settings);
@@ -72,7 +72,7 @@ class Episodes {
   [[nodiscard]] bool running() const;  ///< true if an environment has not ended
   /// "" for an environment that has not ended, else `done`, `diverged`, `plugin` or `stopped`.
   [[nodiscard]] std::string ended(std::size_t i) const;
-  /// Reason of the end, with step and time; "" before the end and after `done`.
+  /// Reason of the end, with its time; "" before the end and after `done`.
   [[nodiscard]] const std::string& message(std::size_t i) const { return outcomes_[i].message; }
 
   /// Set points of the environment since its start, a row of all joints per control tick, rad. Empty if they are not kept.
@@ -100,7 +100,7 @@ class Episodes {
   std::vector<std::size_t> driven_;
   std::vector<EpisodeColumn> observed_, true_columns_;
   std::vector<std::unique_ptr<SteppedLanes>> groups_;
-  std::vector<std::size_t> first_, lanes_;  ///< by group: first environment, and lanes, of which the last may be unused
+  std::vector<std::size_t> first_, lanes_;  ///< by group: first environment, and number of lanes (the last may be unused)
   std::vector<Place> places_;               ///< by environment
   std::vector<double> observations_, truth_;
   std::vector<Outcome> outcomes_;

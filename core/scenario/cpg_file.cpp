@@ -58,14 +58,11 @@ void check_range(const Node& value, const CpgParameter& parameter, Problems& pro
   }
 }
 
-/// Adds the keys of a file that the section does not state and that are not those of the file itself.
+/// Adds the keys of the section that only the file states.
 void put_defaults(const CpgFile& file, Node& section) {
-  constexpr std::array kOfFile{"gaitlab_cpg", "name", "manual", "parameters", "type", "model"};
-  for (std::size_t i = 0; i < file.text.items.size(); ++i) {
-    const std::string& key = file.text.keys[i].first;
-    const bool own =
-        std::ranges::find(kOfFile, key) != kOfFile.end() || std::ranges::find(kModelParts, key) != kModelParts.end();
-    if (!own && section.find(key) == nullptr) put(section, key, file.text.items[i]);
+  for (const std::string key : kOfSection) {
+    const Node* const stated = file.text.find(key);
+    if (stated != nullptr && section.find(key) == nullptr) put(section, key, *stated);
   }
 }
 
@@ -75,7 +72,7 @@ Node with_model(const Node& section, const CpgFile& file, Problems& problems) {
   for (std::size_t i = 0; i < section.items.size(); ++i) {
     const auto& [key, place] = section.keys[i];
     if (key == "model") {
-      problems.add(place, fmt::format("model is stated by {}", in_quotes(file.path)));
+      problems.add(place, fmt::format("model is stated by {}; change a copy of that file", in_quotes(file.path)));
     } else {
       put(made, key, key == "type" ? *file.text.find("type") : section.items[i]);
     }
@@ -128,8 +125,9 @@ Node expanded(const Node& section, const CpgFile& file, Problems& problems) {
         const auto& [part, at] = value.keys[k];
         if (part == "parameters" ||
             (std::ranges::find(kModelParts, part) != kModelParts.end() && file.text.find(part) != nullptr)) {
-          problems.add(at, fmt::format("model.{} is stated by {}{}", part, in_quotes(file.path),
-                                       part == "parameters" ? "; its parameters are keys of cpg" : ""));
+          problems.add(at,
+                       fmt::format("model.{} is stated by {}{}", part, in_quotes(file.path),
+                                   part == "parameters" ? "; its parameters are keys of cpg" : "; change a copy of that file"));
         } else {
           put(model, part, value.items[k]);
         }

@@ -1,4 +1,4 @@
-// Pattern generators in files of their own: equations with parameters, or the model of another type.
+// Files with a pattern generator: equations with parameters, or the model of another type.
 #pragma once
 #include <optional>
 #include <string>
@@ -31,9 +31,9 @@ std::optional<CpgFile> read_cpg_file(const std::string& path, const SourceLocati
 /// Manual of such a file as `gaitlab explain` prints it.
 std::string manual_of(const CpgFile& file);
 
-/// Replaces the section `cpg` of a scenario by what its file means if its type is a file: a path, or the name of a file in
-/// scenarios/cpg that no CPG has. The type is then `equations`, or that of the file. Keys that are parameters of the file
-/// become `model.parameters`. `folder` is that of the scenario. Returns the section as it was, or nothing if it stays.
+/// Expands the section `cpg` of a scenario if its type is a file: a path, or the name of a file in scenarios/cpg that is not
+/// the name of a CPG. The type is then `equations`, or the type in the file. Keys that are parameters of the file become
+/// `model.parameters`. `folder` is that of the scenario. Returns the section as it was, or nothing if it stays.
 std::optional<Node> insert_cpg_file(Node& root, const std::string& folder, const Catalog& catalog, Problems& problems);
 
 }  // namespace gaitlab

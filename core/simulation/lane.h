@@ -1,6 +1,7 @@
 // Data of one rollout in a simulation, without arrays over all lanes.
 #pragma once
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <string>
 #include <vector>
@@ -49,6 +50,11 @@ struct Simulation::Lane {
 
   [[nodiscard]] Measured measured(double t) const {
     return {t, scenario.control_period, angle, speed, torque, touching, channels, load};
+  }
+
+  /// Measured values and set points, as parts of a snapshot of SteppedLanes.
+  [[nodiscard]] std::array<std::vector<double>*, 7> values() {
+    return {&angle, &speed, &torque, &touching, &channels, &load, &asked};
   }
 
   /// Fills `touching` and `load` from the contacts of the sample.

@@ -105,9 +105,8 @@ void SteppedLanes::each(std::size_t lane, Part part) const {
   part(s.bus_, 2 * lane, 2 * lanes);
   if (!s.bus_.empty()) part(s.bus_, 2 * lane + 1, 2 * lanes);
   Simulation::Lane& own = *s.lanes_[lane];
-  for (const Out all : {own.block, Out(own.angle), Out(own.speed), Out(own.torque), Out(own.touching), Out(own.channels),
-                        Out(own.load), Out(own.asked)})
-    part(all, 0, 1);
+  part(own.block, 0, 1);
+  for (std::vector<double>* const values : own.values()) part(*values, 0, 1);
 }
 
 std::size_t SteppedLanes::size(std::size_t lane) const {
@@ -132,10 +131,9 @@ void SteppedLanes::save(std::size_t lane, Out to) const {
 bool SteppedLanes::fits(std::size_t lane, In from) const {
   if (from.size() != size(lane)) return false;
   const auto whole = [](double x, double most) { return x >= 0 && x <= most && x == std::floor(x); };
-  const Simulation::Lane& own = *simulation_.lanes_[lane];
+  Simulation::Lane& own = *simulation_.lanes_[lane];
   std::size_t after = 0;  // numbers behind the block
-  for (const auto* values : {&own.angle, &own.speed, &own.torque, &own.touching, &own.channels, &own.load, &own.asked})
-    after += values->size();
+  for (const std::vector<double>* const values : own.values()) after += values->size();
   const std::size_t changes = from.size() - after - own.changes.states();
   const double segments = static_cast<double>(own.changes.segments()) - 1;
   return whole(from[0], kLatestStep) && whole(from[1], 1) && whole(from[2], 1) &&

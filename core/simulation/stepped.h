@@ -10,9 +10,9 @@
 
 namespace gaitlab {
 
-/// Scenarios side by side as in Simulation, without a recording, judgement or estimate of the torque error, and with a clock
-/// for each lane, so that a lane can be put back to its start while the others go on. Between calls every lane is at a control
-/// tick whose measured values are taken. With the set points of a run, lanes have the bits of the run.
+/// Scenarios side by side as in Simulation, without a recording, judgement or estimate of the torque error. Each lane has a
+/// clock, so that one lane can restart while the others continue. Between calls every lane is at a control tick whose measured
+/// values are taken. The set points of a run give the bits of this run.
 ///
 /// A lane ends at the first control tick at or after `duration`, when it diverges, or when a plugin throws. It then stays where
 /// it started until restart(). tick() allocates nothing.
@@ -42,7 +42,7 @@ class SteppedLanes {
   /// Restarts from another state. Everything else is as at the start of the scenario.
   void restart(std::size_t lane, const RobotState& start);
 
-  /// Numbers of which a copy is a snapshot of a lane. They fit every lane with an equal scenario.
+  /// Numbers whose copy is a snapshot of a lane. They fit every lane with an equal scenario.
   [[nodiscard]] std::size_t size(std::size_t lane) const;
   void save(std::size_t lane, Out to) const;
   /// True if load() accepts these numbers: their count, the clock and the segment of `at` are possible.

@@ -40,8 +40,11 @@ class Truth(Mapping[str, Array]):
             group = name if name.count(".") == 0 else name[: name.rindex(".")] if name.startswith("base.") else "leg.load"
             first, count = self._at.get(group, (k, 0))
             self._at[group] = (first, count + 1)
+        self._at.setdefault("leg.load", (0, 0))  # a robot without legs
 
     def __getitem__(self, name: str) -> Array:
+        if name not in self._at:
+            raise KeyError(f"no truth {name!r}; known: {', '.join(self._at)}")
         first, count = self._at[name]
         part: Array = self._values[:, first : first + count]
         part = part.reshape(len(part), *_SHAPES.get(name.rpartition(".")[2], (count,)))

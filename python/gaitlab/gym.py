@@ -71,7 +71,8 @@ class _Stepped:
 
 
 class Env(gymnasium.Env):  # type: ignore[misc,type-arg,unused-ignore]
-    """One environment. Settings are those of gaitlab.start; `options` of reset are those of Episodes.reset (angles ...)."""
+    """One environment. Settings are those of gaitlab.start; `options` of reset are those of Episodes.reset (angles ...). A seed of
+    reset() concerns the spaces alone: the noise of the sensors follows the setting `seed` of the scenario."""
 
     metadata: dict[str, Any] = {"render_modes": []}
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cfenv>
 #include <memory>
+#include <mutex>
 #include <utility>
 
 #include "core/errors.h"
@@ -47,7 +48,17 @@ struct PyEpisodes {
   std::vector<Texts> own;          ///< settings of each environment in addition to those of `file`, without those of `fast`
   bool fast = false;
   std::unique_ptr<kit::Episodes> all;
+  std::mutex one_at_a_time = {};  ///< guards `all` against other threads of Python; taken without the interpreter's lock
 };
+
+/// Works on the environments without the interpreter's lock.
+template <class Work>
+auto apart_from_python(PyEpisodes& episodes, Work work) {
+  const py::gil_scoped_release released;
+  const std::lock_guard lock(episodes.one_at_a_time);
+  const UsualArithmetic usual;
+  return work(*episodes.all);
+}
 
 /// Settings that make a scenario fast to step: engine articulated with implicit steps of at most 2.5 ms that fill a control
 /// period.
@@ -56,7 +67,7 @@ Texts fast_settings(const Scenario& s, const Catalog& catalog) {
   const Engine& engine = *catalog.engine("articulated");
   const double step = s.control_period / std::ceil(s.control_period / kLongest - 1e-9);
   Texts sets = engine_settings(s, engine.name, *engine.integrator("implicit"), fmt::format("{}", step));
-  // A given step must divide the periods of the trace, which is not recorded, and the duration, which ends at a control tick.
+  // A given step must divide the period of the trace, although nothing is recorded, and the duration.
   sets.push_back(fmt::format("trace.period={}", step));
   sets.push_back(fmt::format("duration={}", s.control_period * std::ceil(s.duration / s.control_period - 1e-9)));
   return sets;
@@ -113,13 +124,13 @@ bool step(PyEpisodes& episodes, const Numbers& action) {
   const In actions(action.data(), static_cast<std::size_t>(action.size()));
   if (const std::string wrong = episodes.all->problem_of(actions); !wrong.empty())
     throw InputError(SourceLocation{"step"}, wrong);
-  const py::gil_scoped_release released;
-  const UsualArithmetic usual;
-  episodes.all->step(actions);
-  return episodes.all->running();
+  return apart_from_python(episodes, [&](kit::Episodes& all) {
+    all.step(actions);
+    return all.running();
+  });
 }
 
-/// Restarts environments. The arrays have a row per environment of `which`; None for what is as in the scenario.
+/// Restarts environments. The arrays have a row per environment of `which`. The scenario replaces an array that is None.
 void restart(PyEpisodes& episodes, const std::vector<std::size_t>& which, const py::object& angles, const py::object& speeds,
              const py::object& velocity, const py::object& angular_velocity) {
   std::vector<Initial> starts;
@@ -148,12 +159,10 @@ void restart(PyEpisodes& episodes, const std::vector<std::size_t>& which, const 
     throw InputError(SourceLocation{"reset"}, "a velocity of the base is given, but the base is fixed");
   set(velocity, 3, [](Initial& start, const double* row) { start.base_velocity = Vec3(row); });
   set(angular_velocity, 3, [](Initial& start, const double* row) { start.base_angular_velocity = Vec3(row); });
-  const py::gil_scoped_release released;
-  const UsualArithmetic usual;
-  episodes.all->restart(which, starts);
+  apart_from_python(episodes, [&](kit::Episodes& all) { all.restart(which, starts); });
 }
 
-/// The scenario whose set points are those of an environment since its start.
+/// A scenario with the set points of an environment since its start.
 std::shared_ptr<PyScenario> recorded(const PyEpisodes& episodes, std::size_t i, double period) {
   Texts sets = kit::recorded_settings(episodes.all->scenario(i), episodes.all->set_points(i), episodes.all->start(i), period);
   const PyScenario before{episodes.file, episodes.own[i], {}};
@@ -213,8 +222,11 @@ void add_episodes(py::module_& m) {
       .def("truth", [](const std::shared_ptr<PyEpisodes>& e) { return view(e->all->truth(), e->all->size(), py::cast(e)); })
       .def("step", &step, py::arg("action"))
       .def(
-          "stop", [](PyEpisodes& e, std::size_t i, const std::string& reason) { e.all->stop(i, reason); }, py::arg("which"),
-          py::arg("reason"))
+          "stop",
+          [](PyEpisodes& e, std::size_t i, const std::string& reason) {
+            apart_from_python(e, [&](kit::Episodes& all) { all.stop(i, reason); });
+          },
+          py::arg("which"), py::arg("reason"))
       .def("restart", &restart, py::arg("which"), py::arg("angles"), py::arg("speeds"), py::arg("base_velocity"),
            py::arg("base_angular_velocity"))
       .def("ended",
@@ -234,9 +246,14 @@ void add_episodes(py::module_& m) {
                                        all.data());
           },
           py::arg("which"))
-      .def("snapshot", [](const PyEpisodes& e) { return py::bytes(e.all->snapshot()); })
+      .def("snapshot",
+           [](PyEpisodes& e) { return py::bytes(apart_from_python(e, [](kit::Episodes& all) { return all.snapshot(); })); })
       .def(
-          "restore", [](PyEpisodes& e, const std::string& bytes) { e.all->restore(bytes); }, py::arg("snapshot"))
+          "restore",
+          [](PyEpisodes& e, const std::string& bytes) {
+            apart_from_python(e, [&](kit::Episodes& all) { all.restore(bytes); });
+          },
+          py::arg("snapshot"))
       .def("recorded", &recorded, py::arg("which"), py::arg("period"))
       .def("check_end", &check_end, py::arg("which"), py::arg("run"));
   m.def("start", &start, py::arg("scenario"), py::arg("overrides"), py::arg("action"), py::arg("every"), py::arg("threads"),

@@ -1,4 +1,5 @@
-"""Speed of stepping from Python, in simulated seconds per CPU second of one thread, and its share beyond the same ticks in C++.
+"""Speed of stepping from Python, in simulated seconds per CPU second of one thread, its share beyond the same ticks in C++, and the
+error of fast steps.
 
 bench_stepping.py [SCENARIO [ENVIRONMENTS]]: PYTHONPATH names the built package.
 """
@@ -49,6 +50,19 @@ for label, noise, smooth, shift, settings in rows:
 begin = time.process_time()
 gaitlab.rollouts(scenario, [{"seed": k + 1, "duration": seconds} for k in range(64)], threads=1, estimate_every=0, quantities=["speed"])
 print(f"{'rollouts, one quantity, no estimate':40} {64 * seconds / (time.process_time() - begin):8.1f} sim s/CPU s")
+
+
+def walked(**physics):
+    """Speed (m/s) and torques (N m, joints x rows) of a run of 6 s."""
+    settings = {"physics": {"engine": "articulated", **physics}, "duration": 6, "trace.period": float(period)}
+    run = gaitlab.run(gaitlab.Scenario(name, settings), loads=False)
+    return run.summary["speed"], np.array([run.trace[f"joint.{j}.torque"] for j in driven])
+
+
+period = poses["t"][1] - poses["t"][0]  # of control
+exact, fast = walked(accuracy=0.001), walked(integrator="implicit", step=float(period / np.ceil(period / 0.0025 - 1e-9)))
+error = np.sqrt(((exact[1] - fast[1]) ** 2).mean(axis=1)) / np.abs(exact[1]).max(axis=1)
+print(f"fast steps: speed {100 * (fast[0] / exact[0] - 1):+.2f} %, torques (RMS) up to {100 * error.max():.1f} % of a joint's peak")
 
 
 def held(environments, every, total):

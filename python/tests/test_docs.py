@@ -41,8 +41,14 @@ class Tutorial(InFolder):
         names = {"numpy": numpy, "gaitlab": gaitlab}
         with contextlib.redirect_stdout(io.StringIO()) as said:
             exec(compile(next(block for language, block in blocks if language == "python"), "close-the-loop.md", "exec"), names)
-        self.assertEqual(list(names["envs"].ended), [""] * 8)  # it stands after 3 s
-        self.assertLess(abs(names["envs"].truth["base.position"][0, 2] - 0.05), 0.005, said.getvalue())
+        envs = names["envs"]
+        self.assertEqual(list(envs.ended), [""] * 8, said.getvalue())  # it stands after 3 s
+        envs.reset()
+        for _ in range(300):
+            if all(envs.ended):
+                break
+            envs.step(numpy.zeros((8, 2)))
+        self.assertEqual(list(envs.ended), ["stopped"] * 8)  # without the reflex it falls
 
 
 if __name__ == "__main__":
