@@ -28,6 +28,8 @@ LegKinematics::LegKinematics(const RobotInfo& robot, const Leg& leg) : elements_
     const double hi = std::min(joint.hi, std::max(kWidest, joint.start));
     ranges_.push_back(lo < hi ? Range{lo, hi} : Range{joint.lo, joint.hi});
   }
+  jacobian_.resize(3 * joints_.size());
+  step_.resize(joints_.size());
 }
 
 Pose LegKinematics::turn_of(const Hinge& hinge, double angle) {
@@ -89,7 +91,9 @@ Vec3 LegKinematics::hip_axis(const std::vector<double>& q) const {
 
 void LegKinematics::reach(const Vec3& target, const Mat3& weights, double damping, int rounds, std::vector<double>& q) const {
   constexpr double kNear = 1e-9;  // rad, a step that changes nothing
-  Eigen::Matrix3Xd J(3, static_cast<Eigen::Index>(joints_.size()));
+  const auto count = static_cast<Eigen::Index>(joints_.size());
+  Eigen::Map<Eigen::Matrix3Xd> J(jacobian_.data(), 3, count);
+  Eigen::Map<Eigen::VectorXd> step(step_.data(), count);
   for (int round = 0; round < rounds; ++round) {
     const Vec3 at = foot(q);
     Pose before;  // of the hinges between the base and this one
@@ -99,7 +103,8 @@ void LegKinematics::reach(const Vec3& target, const Mat3& weights, double dampin
     }
     const double d = damping * std::max(J.norm(), kNear);
     const Mat3 square = J * J.transpose() + d * d * Mat3::Identity();
-    const Eigen::VectorXd step = J.transpose() * (square.inverse() * (weights * (target - at)));
+    const Vec3 pull = square.inverse() * (weights * (target - at));
+    step.noalias() = J.transpose() * pull;
     double farthest = 0;
     for (std::size_t i = 0; i < joints_.size(); ++i) {
       double& angle = q[joints_[i]];

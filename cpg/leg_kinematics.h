@@ -31,7 +31,7 @@ class LegKinematics {
   ///     dq = J' W' (W J J' W' + d^2 1)^-1 W e,   e = target - foot, |dq_j| <= 0.3 rad.
   /// `weights` (W) has the weights of directions in its rows. `damping` is d as a share of the norm of W J.
   /// Reference: S. Buss, Introduction to inverse kinematics with Jacobian transpose, pseudoinverse and damped least squares
-  /// methods, 2009.
+  /// methods, 2009. Allocates nothing.
   void reach(const Vec3& target, const Mat3& weights, double damping, int rounds, std::vector<double>& q) const;
 
   /// Range in which reach() moves joint number `i` of the leg, rad.
@@ -59,6 +59,7 @@ class LegKinematics {
   std::vector<std::array<double, 4>> elements_;
   Vec3 foot_ = Vec3::Zero();
   double length_ = 0;
+  mutable std::vector<double> jacobian_, step_;  ///< scratch
 };
 
 }  // namespace gaitlab::cpg

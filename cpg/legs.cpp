@@ -12,7 +12,12 @@ namespace gaitlab::cpg {
 
 namespace {
 constexpr double kUsualLift = 0.1;  // share of the height of the stance
-constexpr double kMissed = 0.2;     // largest error of a foot without a note, as a share of the distance that it moves
+constexpr double kAcross = 0.1;     // weight of the direction across the way, for a leg of one or two joints
+constexpr double kDamping = 1e-3;   // of the angles of a leg
+constexpr int kNext = 4;            // steps of least squares from point to point of a way
+constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+constexpr std::array kSteeredNames{"speed", "side", "turn"};
+constexpr double kMissed = 0.2;  // largest error of a foot without a note, as a share of the distance that it moves
 
 std::string digits(double value) {
   std::array<char, 32> text = {};
@@ -47,7 +52,13 @@ and turns with turn. Other joints stand still.
 With a leg on the midline, the legs of walk, crawl, wave and ripple follow one another around the robot.
 
 Stance: initial.angles, if they are stated; otherwise feet below the hips, at `stance` times the length of a leg. The
-robot starts there. Balance is not controlled: pace, bound and gallop may fall. A robot of straight legs with flat feet, such as
+robot starts there.
+
+With `steering`, the name of a sensor of type steering, its values speed (m/s), side (m/s) and turn (rad/s) replace these keys. The
+gait follows a change with the time constant T/4. The angles are then computed at every control tick, by the same least squares from those
+of the tick before. A way that no leg can reach is shortened. States: angle.J and speed, side, turn as they are in force.
+
+Balance is not controlled: pace, bound and gallop may fall. A robot of straight legs with flat feet, such as
 the hexapod of M-TRAN modules, walks with type tripod. Legs: docs/modules.md.
 Reference: S. Buss, Introduction to inverse kinematics, 2009 (damped least squares); gaits and stance chosen.
 
@@ -72,6 +83,7 @@ void Legs::Model::fields(Fields& f) {
               {"", 0.1, 0.98,
                "Height of the hips in the stance, as a share of the length of a leg; usual: 0.75, or less near a stop."});
   f.number("ramp", ramp, {"s", 0.1, 100, "Duration of the start, in which the motion grows from the stance."});
+  f.text("steering", steering, "Sensor of type steering, whose values speed, side and turn replace these keys.");
 }
 
 Vec3 Legs::Way::foot(const Vec3& from, double time) const {
@@ -100,24 +112,26 @@ Vec3 Legs::target(const Way& way, const Vec3& from, double share, double lead) c
          way.up * (lift_ * up * up) + lean;
 }
 
-void Legs::plan(const LegKinematics& leg, const Way& way, Step& step) const {
-  constexpr double kAcross = 0.1;  // weight of the direction across the way, for a leg of one or two joints
-  constexpr double kDamping = 1e-3;
-  constexpr int kFirst = 30, kNext = 4;  // steps at the first point, and from point to point
-  const Vec3 from = leg.foot(stance_);
+Mat3 Legs::weights_of(const Way& way, const Step& step) const {
   const double half = duty_ / s_.frequency / 2;
-  Vec3 along = way.foot(from, -half) - way.foot(from, half);
+  Vec3 along = way.foot(step.from, -half) - way.foot(step.from, half);
   const Vec3 forward = way.left.cross(way.up);
   along = along.norm() > 1e-9 ? along.normalized() : forward;
   Mat3 weights;
   weights.row(0) = along;
   weights.row(1) = way.up;
   weights.row(2) = (step.joints.size() >= 3 ? 1 : kAcross) * way.up.cross(along);
+  return weights;
+}
+
+void Legs::plan(const LegKinematics& leg, const Way& way, Step& step) const {
+  constexpr int kFirst = 30;  // steps at the first point
+  const Mat3 weights = weights_of(way, step);
   std::vector<double> q = stance_;
   step.angles.resize(kSamples * step.joints.size());
   for (int round = 0; round < 2; ++round) {  // the second begins where the first ended, so that the cycle closes
     for (std::size_t k = 0; k < kSamples; ++k) {
-      const Vec3 to = target(way, from, static_cast<double>(k) / kSamples, step.phase);
+      const Vec3 to = target(way, step.from, static_cast<double>(k) / kSamples, step.phase);
       leg.reach(to, weights, kDamping, round == 0 && k == 0 ? kFirst : kNext, q);
       for (std::size_t i = 0; i < step.joints.size(); ++i) step.angles[k * step.joints.size() + i] = q[step.joints[i]];
       if (round == 1) step.error = std::max(step.error, (to - leg.foot(q)).norm());
@@ -135,47 +149,82 @@ Legs::Legs(const RobotInfo& robot, const Settings& settings) : s_(settings) {
     throw SettingError("model.stance", "stance and initial.angles are both given; expected one");
   if (s_.model.stride != 0 && s_.model.speed != 0)
     throw SettingError("model.speed", "stride and speed are both given; expected one");
-  std::vector<LegKinematics> legs;
-  for (const Leg& leg : robot.legs) legs.emplace_back(robot, leg);
-  stance_ = stance_of(robot, legs, s_.model.stance);
-  Way way;
-  way.up = vector_of(robot.up);
-  const Vec3 forward = forwards(way.up);
-  way.left = way.up.cross(forward);
-  way.middle.setZero();
-  for (const LegKinematics& leg : legs) way.middle += leg.foot(stance_) / static_cast<double>(legs.size());
+  find_steering(robot);
+  for (const Leg& leg : robot.legs) legs_.emplace_back(robot, leg);
+  stance_ = stance_of(robot, legs_, s_.model.stance);
+  still_.up = vector_of(robot.up);
+  still_.left = still_.up.cross(forwards(still_.up));
+  still_.middle.setZero();
+  for (const LegKinematics& leg : legs_) still_.middle += leg.foot(stance_) / static_cast<double>(legs_.size());
   double track = 0, height = 0;
-  for (const LegKinematics& leg : legs) {
+  for (const LegKinematics& leg : legs_) {
     const Vec3 foot = leg.foot(stance_);
-    track = std::max(track, std::abs(way.left.dot(foot - way.middle)));
-    height = std::max(height, way.up.dot(leg.hip(stance_) - foot));
+    track = std::max(track, std::abs(still_.left.dot(foot - still_.middle)));
+    height = std::max(height, still_.up.dot(leg.hip(stance_) - foot));
   }
-  way.velocity = forward * (s_.model.speed + s_.model.stride * s_.frequency) + way.left * s_.model.side;
-  way.turn = s_.model.turn;
-  way.lean = leans(s_.model.gait) ? s_.model.lean * track : 0;
+  still_.lean = leans(s_.model.gait) ? s_.model.lean * track : 0;
+  const Way way = way_of({s_.model.speed + s_.model.stride * s_.frequency, s_.model.side, s_.model.turn});
   duty_ = s_.model.duty > 0 ? s_.model.duty : duty_of(s_.model.gait, robot.legs);
   lift_ = s_.model.lift > 0 ? s_.model.lift : kUsualLift * height;
-  double reach = std::numeric_limits<double>::infinity();
-  for (const LegKinematics& leg : legs) reach = std::min(reach, 2 * leg.length());
-  if (const double feet = way.velocity.norm() * duty_ / s_.frequency; feet > reach) {
+  reach_ = std::numeric_limits<double>::infinity();
+  for (const LegKinematics& leg : legs_) reach_ = std::min(reach_, 2 * leg.length());
+  if (const double feet = way.velocity.norm() * duty_ / s_.frequency; feet > reach_) {
     throw SettingError(s_.model.stride != 0 ? "model.stride" : "model.speed",
                        digits(way.velocity.norm()) + " m/s at " + digits(s_.frequency) + " Hz needs feet that move " +
-                           digits(feet) + " m in a stance; these legs reach " + digits(reach) +
+                           digits(feet) + " m in a stance; these legs reach " + digits(reach_) +
                            " m: take a higher frequency, a shorter stride or a smaller duty");
   }
   const std::vector<double> phases = phases_of(s_.model.gait, robot.legs);
-  for (std::size_t l = 0; l < legs.size(); ++l) {
-    Step step{{robot.legs[l].joints.begin(), robot.legs[l].joints.end()}, phases[l], {}, 0};
-    plan(legs[l], way, step);
+  for (std::size_t l = 0; l < legs_.size(); ++l) {
+    Step step{{robot.legs[l].joints.begin(), robot.legs[l].joints.end()}, phases[l], {}, 0, legs_[l].foot(stance_)};
+    plan(legs_[l], way, step);
+    moved_.insert(moved_.end(), step.joints.begin(), step.joints.end());
     steps_.push_back(std::move(step));
   }
+  follow_ = 1 - math::exp(-4 * s_.frequency * robot.control_period);
+  angles_ = stance_;
   describe(robot, way, height);
+}
+
+/// Finds the channels of the steered values.
+void Legs::find_steering(const RobotInfo& robot) {
+  channel_.fill(kNone);
+  if (!steered()) return;
+  std::string wanted;
+  bool any = false;
+  for (std::size_t k = 0; k < kSteered; ++k) {
+    const std::string name = s_.model.steering + "." + kSteeredNames[k];
+    wanted += (k == 0 ? "" : k + 1 == kSteered ? " or " : ", ") + name;
+    const auto at = std::ranges::find(robot.channels, name);
+    if (at == robot.channels.end()) continue;
+    channel_[k] = static_cast<std::size_t>(at - robot.channels.begin());
+    any = true;
+  }
+  if (!any) {
+    throw SettingError("model.steering",
+                       "model.steering: no sensor gives " + wanted +
+                           "; add sensors: {remote: {type: steering, values: {turn: {unit: rad/s, value: 0.2}}}}, and "
+                           "steering: remote");
+  }
+  if (channel_[0] != kNone && s_.model.stride != 0)
+    throw SettingError("model.stride", "stride is given, and speed is steered by '" + s_.model.steering + "'; expected one");
+}
+
+/// The way with these speeds: forwards (m/s), to the left (m/s), turning (rad/s).
+Legs::Way Legs::way_of(const std::array<double, kSteered>& speeds) const {
+  Way way = still_;
+  way.velocity = forwards(way.up) * speeds[0] + way.left * speeds[1];
+  way.turn = speeds[2];
+  return way;
 }
 
 void Legs::describe(const RobotInfo& robot, const Way& way, double height) {
   note_ = std::to_string(steps_.size()) + " legs:";
   for (const Leg& leg : robot.legs) note_ += (leg.name == robot.legs.front().name ? " " : ", ") + leg.name;
   note_ += "; hips " + digits(height) + " m above the feet";
+  for (std::size_t k = 0; k < kSteered; ++k) {
+    if (channel_[k] != kNone) note_ += "; " + std::string(kSteeredNames[k]) + " from " + robot.channels[channel_[k]];
+  }
   std::string missed;
   const double least = way.velocity.norm() * duty_ / s_.frequency;
   for (std::size_t l = 0; l < steps_.size(); ++l) {
@@ -188,20 +237,67 @@ void Legs::describe(const RobotInfo& robot, const Way& way, double height) {
   note_ += missed;
 }
 
-void Legs::output(double t, In, Out setpoint) const {
-  std::copy(stance_.begin(), stance_.end(), setpoint.begin());
-  const double grown = t < s_.model.ramp ? t / s_.model.ramp : 1;
+/// Position of a leg in its cycle, from 0 to 1.
+double Legs::share_of(const Step& step, double t) const {
+  const double cycles = t * s_.frequency + step.phase;
+  return cycles - std::floor(cycles);
+}
+
+/// Angles of the legs from their tables.
+void Legs::sample(double t, std::vector<double>& angles) const {
   for (const Step& step : steps_) {
-    const double cycles = t * s_.frequency + step.phase;
-    const double at = (cycles - std::floor(cycles)) * kSamples;
+    const double at = share_of(step, t) * kSamples;
     const std::size_t k = std::min(static_cast<std::size_t>(at), kSamples - 1);
     const double part = at - static_cast<double>(k);
     const double* const now = &step.angles[k * step.joints.size()];
     const double* const next = &step.angles[(k + 1) % kSamples * step.joints.size()];
-    for (std::size_t i = 0; i < step.joints.size(); ++i) {
-      double& angle = setpoint[step.joints[i]];
-      angle += grown * ((1 - part) * now[i] + part * next[i] - angle);
-    }
+    for (std::size_t i = 0; i < step.joints.size(); ++i) angles[step.joints[i]] = (1 - part) * now[i] + part * next[i];
+  }
+}
+
+std::string Legs::state_name(std::size_t index) const {
+  return index < moved_.size() ? "angle." + std::to_string(moved_[index]) : kSteeredNames[index - moved_.size()];
+}
+
+void Legs::start(Out state) const {
+  if (!steered()) return;
+  sample(0, angles_);
+  for (std::size_t i = 0; i < moved_.size(); ++i) state[i] = angles_[moved_[i]];
+  state[moved_.size()] = s_.model.speed + s_.model.stride * s_.frequency;
+  state[moved_.size() + 1] = s_.model.side;
+  state[moved_.size() + 2] = s_.model.turn;
+}
+
+void Legs::event(const Measured& m, Out state) const {
+  if (!steered()) return;
+  const Out speeds = state.subspan(moved_.size());
+  for (std::size_t k = 0; k < kSteered; ++k) {
+    if (channel_[k] != kNone) speeds[k] += follow_ * (m.channels[channel_[k]] - speeds[k]);
+  }
+  Way way = way_of({speeds[0], speeds[1], speeds[2]});
+  const double half = duty_ / s_.frequency / 2;
+  double farthest = 0;
+  for (const Step& step : steps_)
+    farthest = std::max(farthest, (way.foot(step.from, -half) - way.foot(step.from, half)).norm());
+  if (farthest > reach_) {
+    const double shorter = reach_ / farthest;
+    way = way_of({shorter * speeds[0], shorter * speeds[1], shorter * speeds[2]});
+  }
+  for (std::size_t i = 0; i < moved_.size(); ++i) angles_[moved_[i]] = state[i];
+  for (std::size_t l = 0; l < steps_.size(); ++l) {
+    const Vec3 to = target(way, steps_[l].from, share_of(steps_[l], m.t), steps_[l].phase);
+    legs_[l].reach(to, weights_of(way, steps_[l]), kDamping, kNext, angles_);
+  }
+  for (std::size_t i = 0; i < moved_.size(); ++i) state[i] = angles_[moved_[i]];
+}
+
+void Legs::output(double t, In state, Out setpoint) const {
+  std::copy(stance_.begin(), stance_.end(), setpoint.begin());
+  const double grown = t < s_.model.ramp ? t / s_.model.ramp : 1;
+  if (!steered()) sample(t, angles_);
+  for (std::size_t i = 0; i < moved_.size(); ++i) {
+    double& angle = setpoint[moved_[i]];
+    angle += grown * ((steered() ? state[i] : angles_[moved_[i]]) - angle);
   }
 }
 

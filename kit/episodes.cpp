@@ -110,6 +110,7 @@ Episodes::Episodes(std::vector<Scenario> scenarios, EpisodeSettings settings)
     throw InputError(scenarios_[0].place("actuator"), "the robot has no motors, so that actions have no effect");
   const std::vector<Leg> legs = plugin_info(scenarios_[0]).legs;
   for (const Leg& leg : legs) leg_bodies_.emplace_back(leg.bodies.begin(), leg.bodies.end());
+  name_actions();
   observed_ = observed_columns(scenarios_[0]);
   true_columns_ = columns_of_truth(legs);
   for (const Scenario& one : scenarios_) starts_.push_back(one.initial);
@@ -124,6 +125,26 @@ Episodes::Episodes(std::vector<Scenario> scenarios, EpisodeSettings settings)
   for (std::size_t i = 0; i < n; ++i) states_[i] = start_state(scenarios_[i]);
   make_groups();
   for (std::size_t i = 0; i < n; ++i) read(i);
+}
+
+void Episodes::name_actions() {
+  for (const auto& sensor : make_sensors(scenarios_[0])) {
+    if (!sensor->is_steering()) continue;
+    for (const SensorReading& reading : sensor->readings()) steering_.push_back(reading.name);
+  }
+  for (const ActionPart part : settings_.action) {
+    if (part == ActionPart::steering && steering_.empty()) {
+      throw InputError(
+          scenarios_[0].place("sensors"),
+          "action steering needs a sensor of type steering, such as {remote: {type: steering, values: {turn: {unit: "
+          "rad/s}}}}");
+    }
+    if (part == ActionPart::steering) {
+      action_columns_.insert(action_columns_.end(), steering_.begin(), steering_.end());
+    } else {
+      for (const std::size_t j : driven_) action_columns_.push_back(scenarios_[0].robot->joints[j].name);
+    }
+  }
 }
 
 void Episodes::make_groups() {
@@ -141,13 +162,18 @@ void Episodes::make_groups() {
     first_.push_back(from);
     lanes_.push_back(lanes);
     groups_.push_back(std::make_unique<SteppedLanes>(side_by_side));
-    const std::size_t row = settings_.action.size() * joints;
+    const std::size_t widest = std::max(joints, steering_.size());
+    const std::size_t row = settings_.action.size() * widest;
     parts_.emplace_back(lanes * row, 0.0);
     std::vector<Action>& views = actions_.emplace_back(lanes);
     for (std::size_t l = 0; l < lanes; ++l) {
       for (std::size_t k = 0; k < settings_.action.size(); ++k) {
-        const In part = In(parts_.back()).subspan(l * row + k * joints, joints);
+        const bool steered = settings_.action[k] == ActionPart::steering;
+        const In part = In(parts_.back()).subspan(l * row + k * widest, steered ? steering_.size() : joints);
         switch (settings_.action[k]) {
+          case ActionPart::steering:
+            views[l].steering = part;
+            break;
           case ActionPart::setpoint:
             views[l].setpoint = part;
             break;
@@ -165,22 +191,22 @@ void Episodes::make_groups() {
 
 std::string Episodes::problem_of(In actions) const {
   constexpr double kLargest = 3.2;  // rad, as check_angle() of robot_info.h
-  const std::size_t row = action_size();
+  const std::size_t row = action_columns_.size();
   const std::size_t motors = driven_.size();
   const auto part = [&](ActionPart wanted) { return std::ranges::find(settings_.action, wanted) != settings_.action.end(); };
-  const bool angles = part(ActionPart::setpoint) || part(ActionPart::residual);
   for (std::size_t i = 0; i < size(); ++i) {
     const In own = actions.subspan(i * row, row);
     for (std::size_t k = 0; k < row; ++k) {
-      if (!std::isfinite(own[k])) {
-        return fmt::format("action[{}, {}] is {} (joint {})", i, k, own[k],
-                           scenarios_[i].robot->joints[driven_[k % motors]].name);
-      }
+      if (!std::isfinite(own[k])) return fmt::format("action[{}, {}] is {} ({})", i, k, own[k], action_columns_[k]);
     }
-    for (std::size_t d = 0; angles && ended_[i] == 0 && d < motors; ++d) {
+    for (std::size_t d = 0; ended_[i] == 0 && d < motors; ++d) {
       const Joint& joint = scenarios_[i].robot->joints[driven_[d]];
       double angle = 0;
-      for (std::size_t k = d; k < row; k += motors) angle += own[k];
+      std::size_t first = 0;
+      for (const ActionPart one : settings_.action) {
+        if (one == ActionPart::setpoint || one == ActionPart::residual) angle += own[first + d];
+        first += one == ActionPart::steering ? steering_.size() : motors;
+      }
       if (joint.hi == std::numeric_limits<double>::infinity() || std::abs(angle) <= kLargest) continue;
       return fmt::format(
           "action[{}]: {} of {} is {:.6g} rad; expected -3.2 to 3.2 for a hinge with a range; {:.6g} degrees are "
@@ -202,12 +228,18 @@ void Episodes::step_group(std::size_t g, In actions) {
   SteppedLanes& own = *groups_[g];
   const std::size_t joints = scenarios_[0].robot->joints.size();
   const std::size_t used = std::min(lanes_[g], size() - first_[g]);
-  const std::size_t parts = settings_.action.size();
+  const std::size_t width = action_columns_.size();
+  const std::size_t widest = std::max(joints, steering_.size());
   for (std::size_t l = 0; l < lanes_[g]; ++l) {
-    const In row = actions.subspan((first_[g] + std::min(l, used - 1)) * action_size(), action_size());
-    for (std::size_t k = 0; k < parts; ++k) {
-      for (std::size_t d = 0; d < driven_.size(); ++d)
-        parts_[g][(l * parts + k) * joints + driven_[d]] = row[k * driven_.size() + d];
+    const double* from = actions.data() + (first_[g] + std::min(l, used - 1)) * width;
+    double* to = parts_[g].data() + l * settings_.action.size() * widest;
+    for (const ActionPart part : settings_.action) {
+      if (part == ActionPart::steering) {
+        from = std::ranges::copy_n(from, static_cast<std::ptrdiff_t>(steering_.size()), to).in;
+      } else {
+        for (const std::size_t j : driven_) to[j] = *from++;
+      }
+      to += widest;
     }
   }
   for (std::int64_t tick = 0; tick < settings_.every; ++tick) {

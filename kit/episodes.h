@@ -13,15 +13,16 @@ namespace gaitlab {
 namespace kit {
 
 /// Part of an action; the parts of an action follow one another. `setpoint` and `residual` are in rad, `command` in the unit of
-/// the controller (Action).
-enum class ActionPart { setpoint, residual, command };
+/// the controller, with a number per driven joint. `steering` has one per value of a steering sensor, in its unit (Action).
+enum class ActionPart { setpoint, residual, steering, command };
 
 }  // namespace kit
 
 template <>
 struct EnumNames<kit::ActionPart> {
   using enum kit::ActionPart;
-  static constexpr EnumName<kit::ActionPart> kTable[] = {{setpoint, "setpoint"}, {residual, "residual"}, {command, "command"}};
+  static constexpr EnumName<kit::ActionPart> kTable[] = {
+      {setpoint, "setpoint"}, {residual, "residual"}, {steering, "steering"}, {command, "command"}};
 };
 
 namespace kit {
@@ -42,17 +43,18 @@ struct EpisodeColumn {
 /// Environments, one per scenario. They share engine, step, control period and structure of the robot (can_share). An
 /// environment has the same bits alone and beside any others, for any number of threads and lanes. After its end it keeps its
 /// last rows until restart(). An object belongs to one thread at a time. Throws InputError at `overrides[i]` for a scenario
-/// that does not fit the first one, InputError for a robot without motors, and the errors of SteppedLanes.
+/// that does not fit the first one, InputError for a robot without motors and for steering without its sensor, and the errors
+/// of SteppedLanes.
 class Episodes {
  public:
   Episodes(std::vector<Scenario> scenarios, EpisodeSettings settings);
 
   [[nodiscard]] std::size_t size() const { return scenarios_.size(); }
   [[nodiscard]] const Scenario& scenario(std::size_t i) const { return scenarios_[i]; }
-  /// Joints with a motor; the entries of each part of an action.
-  [[nodiscard]] const std::vector<std::size_t>& driven() const { return driven_; }
+  [[nodiscard]] const std::vector<std::size_t>& driven() const { return driven_; }  ///< joints with a motor
   [[nodiscard]] const std::vector<ActionPart>& parts() const { return settings_.action; }
-  [[nodiscard]] std::size_t action_size() const { return settings_.action.size() * driven_.size(); }
+  /// Joints and steered values, the columns of an action.
+  [[nodiscard]] const std::vector<std::string>& action_columns() const { return action_columns_; }
   [[nodiscard]] const std::vector<EpisodeColumn>& observed() const { return observed_; }
   [[nodiscard]] const std::vector<EpisodeColumn>& true_columns() const { return true_columns_; }
 
@@ -90,6 +92,7 @@ class Episodes {
     std::size_t group = 0, lane = 0;
   };
   [[nodiscard]] SteppedLanes& group(std::size_t i) const { return *groups_[places_[i].group]; }
+  void name_actions();
   void make_groups();
   void step_group(std::size_t group, In actions);
   void read(std::size_t i);
@@ -98,6 +101,8 @@ class Episodes {
   std::vector<Scenario> scenarios_;
   EpisodeSettings settings_;
   std::vector<std::size_t> driven_;
+  std::vector<std::string> steering_;  ///< names of the values of steering sensors
+  std::vector<std::string> action_columns_;
   std::vector<EpisodeColumn> observed_, true_columns_;
   std::vector<std::unique_ptr<SteppedLanes>> groups_;
   std::vector<std::size_t> first_, lanes_;  ///< by group: first environment, and number of lanes (the last may be unused)
@@ -110,7 +115,7 @@ class Episodes {
   std::vector<std::vector<std::size_t>> leg_bodies_;
   std::vector<RobotState> states_;
   std::vector<std::vector<double>> load_;  ///< scratch, by environment and body, N
-  /// Scratch, by group: the parts of the actions by lane, part and joint, and views of them by lane.
+  /// Scratch, by group: the parts of the actions by lane, part and joint (or steered value), and views of them by lane.
   std::vector<std::vector<double>> parts_;
   std::vector<std::vector<Action>> actions_;
 };

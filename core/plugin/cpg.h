@@ -23,6 +23,7 @@ struct SetPointTimes {
   /// ramp of a model without states scales the motion about the set points at t = 0. A robot without initial.angles starts at
   /// these set points.
   double full_size = 0;
+  bool grows_from_start = false;  ///< true for a model with states whose ramp works like that of one without
 };
 
 /// A model with a state given by ODEs, whose output is the joint set points (rad). The model has no memory: the caller owns the

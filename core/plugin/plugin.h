@@ -16,7 +16,7 @@
 #define GAITLAB_ABI_LIBRARY "libstdc++ " GAITLAB_ABI_TEXT(_GLIBCXX_RELEASE) " cxx11 " GAITLAB_ABI_TEXT(_GLIBCXX_USE_CXX11_ABI)
 #endif
 /// Number of the interface, compiler, and standard library. A plugin is loaded only if all three equal those of the program.
-#define GAITLAB_ABI "gaitlab-18, " GAITLAB_ABI_COMPILER ", " GAITLAB_ABI_LIBRARY
+#define GAITLAB_ABI "gaitlab-19, " GAITLAB_ABI_COMPILER ", " GAITLAB_ABI_LIBRARY
 
 // NOLINTBEGIN(bugprone-macro-parentheses): a parameter's name cannot be in parentheses
 #define GAITLAB_PLUGIN(registry)                               \

@@ -63,6 +63,8 @@ class Sensor {
   [[nodiscard]] virtual bool quantises() const { return false; }
   /// True if values depend on the seed.
   [[nodiscard]] virtual bool draws() const { return false; }
+  /// True if the values come from an operator, so that a caller that steps the simulation may give others.
+  [[nodiscard]] virtual bool is_steering() const { return false; }
   /// Number of values that the sensor keeps from tick to tick.
   [[nodiscard]] virtual std::size_t states() const = 0;
   /// Computes the values, one per reading. Called at every control tick in order. The state is still meaningless at tick 0.

@@ -323,12 +323,15 @@ void ScenarioReader::attempt(Use use) {
 
 PerJoint ScenarioReader::start_of(const Cpg* cpg) const {
   constexpr double kRounding = 1e-12;  // rad
-  if (cpg == nullptr || cpg->states() > 0) return {};
-  const double ramp = cpg->times().full_size;
-  if (!(ramp > 0) || !std::isfinite(ramp)) return {};
+  if (cpg == nullptr) return {};
+  const SetPointTimes times = cpg->times();
+  if (cpg->states() > 0 && !times.grows_from_start) return {};
+  if (!(times.full_size > 0) || !std::isfinite(times.full_size)) return {};
+  std::vector<double> state(cpg->states());
+  cpg->start(state);
   const std::vector<Joint>& joints = scenario_.robot->joints;
   PerJoint angles{0, std::vector<double>(joints.size())};
-  cpg->output(0, {}, angles.each);
+  cpg->output(0, state, angles.each);
   for (std::size_t j = 0; j < joints.size(); ++j) {
     double& angle = angles.each[j];
     angle = joints[j].driven() && std::abs(angle) > kRounding ? std::clamp(angle, joints[j].lo, joints[j].hi) : 0;

@@ -57,6 +57,11 @@ struct Simulation::Lane {
     return {&angle, &speed, &torque, &touching, &channels, &load, &asked};
   }
 
+  /// Takes the values of steering sensors from the action, if it has them.
+  void steer() {
+    for (std::size_t k = 0; k < action.steering.size(); ++k) channels[sensors.steering()[k]] = action.steering[k];
+  }
+
   /// Fills `touching` and `load` from the contacts of the sample.
   void take_contacts() {
     std::fill(touching.begin(), touching.end(), 0.0);

@@ -12,13 +12,16 @@ LaneSensors::LaneSensors(const Scenario& scenario)
       sensors_(make_sensors(scenario)),
       kinematics_(*scenario.robot) {
   for (const auto& sensor : sensors_) {
+    for (const SensorReading& reading : sensor->readings()) {
+      if (reading.replaces != Replaces::nothing) continue;
+      if (sensor->is_steering()) steering_.push_back(channels_);
+      ++channels_;
+    }
     readings_.insert(readings_.end(), sensor->readings().begin(), sensor->readings().end());
     points_.insert(points_.end(), sensor->points().begin(), sensor->points().end());
     states_ += sensor->states();
     need_current_ = need_current_ || sensor->needs_current();
   }
-  const auto own = [](const SensorReading& reading) { return reading.replaces == Replaces::nothing; };
-  channels_ = static_cast<std::size_t>(std::ranges::count_if(readings_, own));
   current_.assign(robot_.joints.size(), 0.0);
   state_.q = state_.qd = current_;
   module_load_.assign(robot_.modules.size(), 0.0);

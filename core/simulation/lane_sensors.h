@@ -29,6 +29,8 @@ class LaneSensors {
   /// Number of readings that are entries of Measured::channels.
   [[nodiscard]] std::size_t channels() const { return channels_; }
   [[nodiscard]] std::size_t readings() const { return readings_.size(); }
+  /// Channels whose values come from an operator.
+  [[nodiscard]] const std::vector<std::size_t>& steering() const { return steering_; }
   [[nodiscard]] In values() const { return values_; }
 
   /// True numbers that the caller fills before sense(): currents of the joints, A, and the state of the robot if need_motion().
@@ -48,6 +50,7 @@ class LaneSensors {
   std::vector<std::unique_ptr<Sensor>> sensors_;
   std::vector<SensorReading> readings_;
   std::vector<BodyPoint> points_;
+  std::vector<std::size_t> steering_;
   std::size_t states_ = 0, channels_ = 0;
   bool need_current_ = false;
   Out state_numbers_, values_;  ///< parts of the state of the simulation

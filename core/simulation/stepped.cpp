@@ -53,6 +53,7 @@ void SteppedLanes::tick(std::span<const Action> actions) {
   }
   arrive();
   for (const auto& lane : s.lanes_) {
+    lane->steer();  // the last values sent stay in force
     if (lane->closed || s.step_of(*lane) < lane->clock.steps()) continue;
     lane->outcome = {};
     lane->closed = true;

@@ -74,6 +74,7 @@ void Simulation::command() {
 
 void Simulation::command(Lane& lane) {
   const std::size_t lanes = lanes_.size();
+  lane.steer();
   const Measured measured = lane.measured(time(lane));
   const Action& action = lane.action;
   lane.sensed = false;

@@ -10,7 +10,7 @@
 Names of settings, columns and quantities, and their definitions, are those of the program gaitlab.
 """
 from ._native import InputError, RunError, build
-from ._cpg import Joint, cpg
+from ._plugins import Joint, controller, cpg
 from ._episodes import Column, Episodes, Truth, start
 from ._evaluator import Evaluator
 from ._policy import Policy
@@ -46,6 +46,7 @@ __all__ = [
     "Truth",
     "Warning",
     "build",
+    "controller",
     "cpg",
     "quantities",
     "read",

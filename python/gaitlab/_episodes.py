@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     import pandas
 
 Array = npt.NDArray[Any]
-_PARTS = ("setpoint", "residual", "command")
+_PARTS = ("setpoint", "residual", "steering", "command")
 _SHAPES = {"rotation": (3, 3), "energy": (), "time": ()}
 
 
@@ -81,10 +81,12 @@ class Episodes:
         self.columns: list[Column] = [Column(*one) for one in native.observed()]
         """Names and units of the columns of an observation."""
         self.joints: list[str] = native.driven
-        """Joints with a motor: the columns of each part of an action."""
+        """Joints with a motor."""
         self.parts: list[str] = native.parts
-        """The parts of an action: `setpoint`, `residual` or `command`."""
-        self._shape = (n, len(self.parts) * len(self.joints))
+        """The parts of an action: `setpoint`, `residual`, `steering` or `command`."""
+        self.action_columns: list[str] = native.action_columns
+        """Joints and steered values: the columns of an action."""
+        self._shape = (n, len(self.action_columns))
         self._begin(np.ones(n, dtype=bool))
 
     @property
@@ -114,13 +116,14 @@ class Episodes:
         return self._native.message(self._index(i))
 
     def step(self, action: Any) -> Array:
-        """Simulates `every` control ticks under these actions (n x joints, or as many columns for each part of `action`), and returns
-        the observations: what a controller measures at the tick, with the noise and delays of the sensors."""
+        """Simulates `every` control ticks under these actions (n x action_columns), and returns the observations: what a controller measures at the tick, with the noise and delays of the sensors."""
         given = np.asarray(action, dtype=np.float64)
         expected = self._shape
         if given.shape != expected:
-            parts = "" if self.parts == ["setpoint"] else " for each of " + ", ".join(self.parts)
-            raise ValueError(f"action has the shape {given.shape}; expected {expected}: driven joints {', '.join(self.joints)}{parts}")
+            raise ValueError(
+                f"action has the shape {given.shape}; expected {expected}, for {' and '.join(self.parts)}: "
+                + ", ".join(self.action_columns)
+            )
         if not self._running:
             raise ValueError(f"step after the end: all {self.n} environments have ended; reset()")
         self._running = self._native.step(given)
@@ -270,8 +273,9 @@ def start(
     n: number of environments; default: one per row of `overrides`, or one.
     overrides: settings per environment, as in rollouts(). They may change masses, friction, tolerances, seeds and the like, but not
         engine, step, control period or structure of the robot.
-    action: `setpoint` (rad, per joint with a motor, in place of the CPG's), `residual` (rad, added to those of the CPG) or `command`
-        (V or N m, in place of the controller's), or a list of them, whose columns follow one another.
+    action: `setpoint` (rad, per joint with a motor, in place of the CPG's), `residual` (rad, added to those of the CPG), `steering`
+        (values of the scenario's sensors of type steering, such as a speed that the CPG follows) or `command` (V or N m, in place of
+        the controller's), or a list of them, whose columns follow one another.
     every: control ticks per step.
     fast: engine articulated with implicit steps of at most 2.5 ms, in place of the scenario's engine, step and accuracy: for learning.
         run() judges with those of the scenario.
@@ -295,6 +299,8 @@ def start(
         raise ValueError("action is empty or names a part twice")
     if "command" in parts and len(parts) > 1:
         raise ValueError("action 'command' replaces the controller, so that set points have no effect; expected it alone")
+    if {"setpoint", "steering"} <= set(parts):
+        raise ValueError("action 'setpoint' replaces the CPG, so that 'steering' has no effect; expected one of them")
     check_range("every", every, 1, 1_000_000)
     check_range("lanes", lanes, 0, _native.most_lanes)
     keep = (count == 1 if record is None else bool(record)) and "command" not in parts

@@ -49,7 +49,7 @@ class _Stepped:
         low, high = (np.array([float(np.clip(ranges[joint][side], -3.2, 3.2)) for joint in self.envs.joints]) for side in (0, 1))
         parts = self.envs.parts
         if parts != ["setpoint"]:
-            low, high = np.full(len(parts) * len(low), -np.inf), np.full(len(parts) * len(low), np.inf)
+            low, high = (np.full(len(self.envs.action_columns), side) for side in (-np.inf, np.inf))
         width = len(self.envs.columns)
         self.observation = gymnasium.spaces.Box(-np.inf, np.inf, (width,), np.float64)
         self.action = gymnasium.spaces.Box(low, high, dtype=np.float64)

@@ -207,6 +207,7 @@ void add_episodes(py::module_& m) {
                                  names.push_back(e.all->scenario(0).robot->joints[j].name);
                                return names;
                              })
+      .def_property_readonly("action_columns", [](const PyEpisodes& e) { return e.all->action_columns(); })
       .def_property_readonly("all_joints", [](const PyEpisodes& e) { return joint_names(*e.all->scenario(0).robot); })
       .def_property_readonly("parts",
                              [](const PyEpisodes& e) {

@@ -11,7 +11,7 @@
 #include "core/simulation/batch_limits.h"
 #include "python/native/apart.h"
 #include "python/native/episodes.h"
-#include "python/native/python_cpg.h"
+#include "python/native/python_plugins.h"
 #include "python/native/rollouts.h"
 #include "python/native/run.h"
 #include "python/native/scenario.h"
@@ -97,15 +97,15 @@ void add_functions(py::module_& m) {
       py::arg("estimate_every"), py::arg("progress"));
   m.def("quantities", &quantity_texts, py::arg("of_joints"));
   m.def(
-      "add_cpg",
-      [](const std::string& name, const py::object& type,
+      "add_class",
+      [](const std::string& kind, const std::string& name, const std::string& unit, const py::object& type,
          const std::vector<std::tuple<std::string, double, std::string, double, double, std::string>>& settings) {
         std::vector<NumberSetting> numbers;
         for (const auto& [key, value, unit, low, high, about] : settings)
           numbers.push_back({key, unit, about, value, low, high});
-        add_class(name, type, std::move(numbers));
+        add_class(kind == "cpg" ? Kind::cpg : Kind::controller, name, unit, type, std::move(numbers));
       },
-      py::arg("name"), py::arg("type"), py::arg("settings"));
+      py::arg("kind"), py::arg("name"), py::arg("unit"), py::arg("type"), py::arg("settings"));
   m.def("take_said", &take_said);
 }
 

@@ -16,7 +16,7 @@
 #include "kit/run_warnings.h"
 #include "kit/run_writer.h"
 #include "python/native/apart.h"
-#include "python/native/python_cpg.h"
+#include "python/native/python_plugins.h"
 #include "report/analysis/cpg_alone.h"
 #include "report/figures/paper/run_figure.h"
 #include "report/page/page.h"

@@ -13,7 +13,7 @@
 #include "kit/run_warnings.h"
 #include "kit/shipped.h"
 #include "python/native/apart.h"
-#include "python/native/python_cpg.h"
+#include "python/native/python_plugins.h"
 
 namespace py = pybind11;
 
@@ -47,17 +47,19 @@ std::shared_ptr<PyScenario> read_python(const std::string& file, const Texts& se
 
 namespace {
 
-/// All of a scenario but its CPG, as text.
-std::string without_cpg(Scenario scenario) {
+/// All of a scenario but its CPG and controller, as text.
+std::string without_classes(Scenario scenario) {
   scenario.cpg = {};
+  scenario.controller = {};
   return resolved(scenario);
 }
 
-/// The file read again, with the classes that were registered meanwhile. Throws InputError if anything but its CPG has changed.
+/// The file read again, with the classes that were registered meanwhile. Throws InputError if anything but its CPG or
+/// controller has changed.
 std::shared_ptr<ReadFile> read_again(ReadFile& before) {
   std::shared_ptr<ReadFile> read = read_python(before.path, before.sets, before.trusted)->file;
   apart([&] {
-    if (without_cpg(read->with({})) != without_cpg(before.with({}))) {
+    if (without_classes(read->with({})) != without_classes(before.with({}))) {
       throw InputError(SourceLocation{before.path},
                        "has changed since the scenario was read, or a file that it names has changed; read the scenario again: "
                        "gaitlab.Scenario");

@@ -171,6 +171,25 @@ class Rows(unittest.TestCase):
             three.step(action)
         self.assertTrue(np.array_equal(one.observations, three.observations) and list(three.ended) == ["done", "done"])
 
+    def test_steering_reaches_the_legs(self):
+        sensors = {"remote": {"type": "steering", "values": {"speed": {"unit": "m/s"}, "turn": {"unit": "rad/s"}}}}
+        model = {"gait": "trot", "lift": 0.034, "steering": "remote"}
+        dog = gaitlab.Scenario("dog-trot", {"sensors": sensors, "cpg.model": model, "duration": 6})
+        envs = gaitlab.start(dog, 3, action=["steering", "residual"], every=5, fast=True, copy=True)
+        self.assertEqual(envs.action_columns, ["remote.speed", "remote.turn", *envs.joints])
+        where = [column.name for column in envs.columns].index("remote.turn")
+        sent = np.array([[0.19, 0.3], [0.19, 0], [0.1, -0.3]])
+        while "" in list(envs.ended):
+            obs = envs.step(np.hstack([sent, np.zeros((3, len(envs.joints)))]))
+            self.assertEqual(list(obs[:, where]), list(sent[:, 1]))
+            rotation, position = envs.truth["base.rotation"], envs.truth["base.position"]
+        heading = np.arctan2(rotation[:, 1, 0], rotation[:, 0, 0])
+        self.assertGreater(heading[0], 1)  # rad, of 1.8 less the start
+        self.assertLess(abs(heading[1]), 0.1)
+        self.assertLess(heading[2], -1)
+        self.assertGreater(position[1, 0], 0.7)  # m, of 1.14 less the start
+        self.assertEqual(list(envs.reset()[:, where]), [0, 0, 0])
+
     def test_the_last_row_is_that_of_a_longer_episode(self):
         short, long = (gaitlab.start(hexapod(duration=duration), 1, copy=True) for duration in (0.15, 1))
         for _ in range(10):
@@ -257,11 +276,11 @@ class Refused(unittest.TestCase):
         envs = gaitlab.start(hexapod(), 2)
         joints = len(envs.joints)
         good = np.zeros((2, joints))
-        self.check(rf"action has the shape \(2, {joints + 1}\); expected \(2, {joints}\): driven joints m0/", lambda: envs.step(np.zeros((2, joints + 1))))
+        self.check(rf"action has the shape \(2, {joints + 1}\); expected \(2, {joints}\), for setpoint: m0/", lambda: envs.step(np.zeros((2, joints + 1))))
         bad = good.copy()
         bad[1, 3] = np.nan
         self.check("beyond 10000", lambda: envs.reset(speeds=np.full(len(hexapod().joints), 1e9)))
-        self.check(r"action\[1, 3\] is nan \(joint ", lambda: envs.step(bad), gaitlab.InputError)
+        self.check(r"action\[1, 3\] is nan \(m", lambda: envs.step(bad), gaitlab.InputError)
         bad[1, 3] = 57.3
         self.check(r"action\[1\]: the set point of .* is 57.3 rad.* 57.3 degrees are 1 rad", lambda: envs.step(bad), gaitlab.InputError)
         self.check(r"reset\(mask\): expected 2 truth values, got int64 of \(3,\)", lambda: envs.reset(np.zeros(3, dtype=int)))
@@ -270,6 +289,8 @@ class Refused(unittest.TestCase):
         self.check("base_velocity has a number beyond 10000", lambda: envs.reset(base_velocity=[1e5, 0, 0]))
         self.check("the robot has no motors", lambda: gaitlab.start("pendulum"), gaitlab.InputError)
         self.check("contact.law: bullet allows no snapshot", lambda: gaitlab.start(gaitlab.Scenario("hexapod", {"physics.engine": "bullet", "contact.law": "bullet"})), gaitlab.InputError)
+        self.check("action steering needs a sensor of type steering", lambda: gaitlab.start(hexapod(), action="steering"), gaitlab.InputError)
+        self.check("'setpoint' replaces the CPG, so that 'steering' has no effect", lambda: gaitlab.start(hexapod(), action=["setpoint", "steering"]))
         self.check("'leap' is unknown", lambda: gaitlab.start(hexapod(), action="leap"))
         self.check("expected 'fall'", lambda: gaitlab.start(hexapod(), terminate="falls"))
         self.check("2 rows for 3 environments", lambda: gaitlab.start(hexapod(), 3, overrides=[{}, {}]))

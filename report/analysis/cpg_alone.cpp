@@ -42,8 +42,10 @@ StatedTimes stated_times(const Scenario& s) {
   if (s.cpg.entry == nullptr) return {};
   const PluginSelection& last = s.changes.empty() ? s.cpg : s.changes.back().cpg;
   const std::unique_ptr<Cpg> cpg = make_cpg(last, plugin_info(s));
-  const auto [period, full_size] = cpg->times();
-  StatedTimes made{period, full_size, cpg->states() == 0 ? full_size : 0, period > 0 || full_size > 0};
+  const auto [period, full_size, from_start] = cpg->times();
+  const bool steered = std::ranges::any_of(make_sensors(s), [](const auto& sensor) { return sensor->is_steering(); });
+  StatedTimes made{period, full_size, cpg->states() == 0 || from_start ? full_size : 0,
+                   !steered && (period > 0 || full_size > 0)};
   if (const std::vector<double> all = frequencies(s, last); !(period > 0) && !all.empty())
     made.period = 1 / *std::ranges::min_element(all);
   return made;
@@ -72,7 +74,7 @@ std::string key_of_cpg(const Scenario& s) {
   std::string key =
       fmt::format("{} {} {} {} {}", s.cpg.entry->origin, s.cpg.entry->name, s.control_period, s.cpg_step, s.sensors.size());
   for (std::size_t j = 0; j < joints.size(); ++j) key += fmt::format(" {}", s.initial.angles[j]);
-  return key + "\n" + print_yaml(writer.take());
+  return key + "\n" + print_yaml(writer.take()) + print_yaml(sensors_node(s, joints));
 }
 
 CpgAlone::CpgAlone(const Scenario& s, const Feedback& feedback)
@@ -87,6 +89,13 @@ CpgAlone::CpgAlone(const Scenario& s, const Feedback& feedback)
   const RobotInfo robot = plugin_info(s);
   cpg_ = make_cpg(s.cpg, robot);
   channels_.assign(robot.channels.size(), feedback.speed);
+  std::size_t channel = 0;
+  for (auto& sensor : make_sensors(s)) {
+    const auto own = [](const SensorReading& reading) { return reading.replaces == Replaces::nothing; };
+    const auto count = static_cast<std::size_t>(std::ranges::count_if(sensor->readings(), own));
+    if (sensor->is_steering()) steering_.emplace_back(std::move(sensor), channel);
+    channel += count;
+  }
   for (std::size_t j = 0; j < s.robot->joints.size(); ++j) {
     driven_.push_back(s.robot->joints[j].driven());
     angle_.push_back(s.initial.angles[j] + feedback.angle);
@@ -102,6 +111,8 @@ const std::vector<double>& CpgAlone::rows(std::int64_t ticks) {
   rows_.reserve(static_cast<std::size_t>(std::max(ticks, ticks_)) * driven_.size());
   for (; ticks_ < ticks && !StopsCpgAlone::asked(); ++ticks_) {
     const double t = static_cast<double>(ticks_) * period_;
+    for (const auto& [sensor, first] : steering_)
+      sensor->sense({.tick = ticks_}, {}, Out(channels_).subspan(first, sensor->readings().size()));
     cpg_->event(measured(t), state_);
     cpg_->output(t, state_, setpoint_);
     for (std::size_t j = 0; j < setpoint_.size(); ++j) {

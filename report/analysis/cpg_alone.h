@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/plugin/sensor.h"
 #include "core/scenario/scenario.h"
 #include "core/simulation/cpg_integrator.h"
 
@@ -27,7 +28,8 @@ StatedTimes stated_times(const Scenario& scenario);
 /// Frequencies above 0 of the driven joints among the settings of a CPG, Hz.
 std::vector<double> frequencies(const Scenario& scenario, const PluginSelection& cpg);
 
-/// Measured values that a CPG without a robot receives at every tick, the same for every joint and module.
+/// Measured values that a CPG without a robot receives at every tick, the same for every joint and module. Values of steering
+/// sensors are those of the run.
 struct Feedback {
   double angle = 0;  ///< rad, added to the initial angle
   double speed = 0, torque = 0, touching = 0;
@@ -65,7 +67,8 @@ class CpgAlone {
   [[nodiscard]] Measured measured(double t) const;
 
   std::unique_ptr<Cpg> cpg_;
-  double period_, step_;  ///< s, of the control and of the CPG
+  std::vector<std::pair<std::unique_ptr<Sensor>, std::size_t>> steering_ = {};  ///< and their first channels
+  double period_, step_;                                                        ///< s, of the control and of the CPG
   std::vector<bool> driven_ = {};
   std::vector<double> angle_ = {}, speed_, torque_, touching_, channels_, load_;
   std::vector<double> state_, setpoint_;

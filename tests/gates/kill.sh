@@ -190,19 +190,20 @@ check_left() {
   ((${#after[@]} == 0)) || quietly "${after[@]}" || bad "$1: ${after[*]}"
 }
 at_every_call() {
-  local calls call how there
+  local calls call how there first=1 stride=1
+  [[ -z ${GAITLAB_QUARTER:-} ]] || first=$((1 + GAITLAB_QUARTER)) stride=4 # in CI every fourth call
   cp -r -- . "$work/before"
   mapfile -t -d '' there < <(find . -type f -print0)
   sums >"$work/sums"
   expect "$2" "${@:3}"
   sums >>"$work/sums"
-  for ((calls = 1;; ++calls)); do
+  for ((calls = first;; calls += stride)); do
     restore
     kill_at_call "$calls" "${@:3}" || break
     check_left "$1, killed at call $calls"
   done
   ((code == $2)) || bad "$1: exit code $code at call $calls, expected $2"
-  for ((call = 1; call < calls; ++call)); do
+  for ((call = first; call < calls; call += stride)); do
     for how in once on; do
       restore
       fail_at_call "$call" "$how" "${@:3}"
@@ -213,7 +214,7 @@ at_every_call() {
   restore
   expect "$2" "${@:3}"
   rm -rf -- "$work/before"
-  ok "$1, of which each of $((calls - 1)) calls ends or fails: files as they were, or whole"
+  ok "$1, of which $(((calls - first) / stride)) calls end or fail: files as they were, or whole"
 }
 
 passes_old_or_new() {

@@ -11,6 +11,7 @@ import argparse
 import collections
 import csv
 import json
+import os
 import pathlib
 import re
 import shutil
@@ -258,16 +259,21 @@ def main():
     parser.add_argument("--keep", type=pathlib.Path)
     parser.add_argument("--seed", type=int, default=SEED)
     options = parser.parse_intermixed_args()
+    # In CI every fourth run, others at each landing; what must have occurred is counted over all of them.
+    quarter = int(os.environ["GAITLAB_QUARTER"]) if "GAITLAB_QUARTER" in os.environ else None
     with tempfile.TemporaryDirectory() as temporary:
         work = options.keep or pathlib.Path(temporary)
         gate = Gate(str(pathlib.Path(options.program).resolve()), options.scenarios.resolve(), work)
+        heard = set()
         for k, one in enumerate(draws.plan(options.seed)):
-            if not options.names or one[0] in options.names:
+            if one[0] in options.names or not options.names and (quarter is None or k % 4 == quarter):
                 gate.hear(draws.random.Random(1000 * options.seed + k), *one)
+                heard.add(one[0])
         if not options.names:
-            for name in ("hexapod, fast", "caterpillar, little current", "hexapod, bullet"):
+            for name in sorted(heard & {"hexapod, fast", "caterpillar, little current", "hexapod, bullet"}):
                 gate.any_rows(name)
-            gate.studies()
+            if "hexapod" in heard:
+                gate.studies()
         gate.browser.close()
     open_, met = [], set()
     for name, text in gate.wrong:
@@ -282,7 +288,7 @@ def main():
     for text in gate.survivors:
         open_.append(text)
         print(f"WRONG a changed number is not heard: {text}")
-    if not options.names and options.seed == SEED:
+    if not options.names and quarter is None and options.seed == SEED:
         for entry in set(range(len(KNOWN))) - met:
             open_.append(entry)
             print(f"WRONG no run shows any more, so it is to be taken out of KNOWN: {KNOWN[entry]}")

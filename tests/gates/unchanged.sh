@@ -26,6 +26,6 @@ if [[ -n ${LAB_SKIP_UNCHANGED:-} && -f $state && $(<"$state") == "$hash" ]]; the
 fi
 rm -f -- "$state"
 "$@"
-[[ -z ${GAITLAB_HALF:-} ]] || exit 0 # only half of the gate has run
+[[ -z ${GAITLAB_QUARTER:-} ]] || exit 0 # only a part of the gate has run
 mkdir -p -- "$(dirname -- "$state")"
 printf '%s' "$hash" >"$state"

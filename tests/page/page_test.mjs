@@ -46,11 +46,11 @@ const failing = (meta) => meta.verdict.checks.find((c) => c.id === meta.verdict.
 const nameOf = (meta, c) => (c.part === "dock" ? `${c.worst}'s dock` : c.part === "foot" ? meta.feet.find((f) => f.name === c.worst)?.title ?? c.worst : c.worst);
 const near = (a, b, off, what) => assert.ok(Math.abs(a - b) <= off, `${what}: ${a}, expected ${b}`);
 
-// In CI every second page, another half at each landing (GAITLAB_HALF): without a GPU the drawing takes most of the time.
-const half = process.env.GAITLAB_HALF;
+// In CI every fourth page, others at each landing (GAITLAB_QUARTER): without a GPU the drawing takes most of the time.
+const quarter = process.env.GAITLAB_QUARTER;
 for (const [number, [name, file]] of Object.entries(pages).entries()) {
   // One page for three tests: without a GPU, to open it and to draw in it costs more than they do.
-  if (half === undefined || number % 2 === Number(half)) on(name, file, { width: 390, height: 844 }, async (page, meta, part) => {
+  if (quarter === undefined || number % 4 === Number(quarter)) on(name, file, { width: 390, height: 844 }, async (page, meta, part) => {
     await part.test(`${name}: fits narrow windows`, async () => {
       for (const width of [390, 320]) {
         await page.setViewportSize({ width, height: 844 });

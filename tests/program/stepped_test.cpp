@@ -120,7 +120,7 @@ TEST(Stepped, LanesEndAtTheirDurationAndStayUntilTheirRestart) {
   std::vector<Scenario> all(4, shipped("hexapod.yaml", kFast));
   for (std::size_t l = 0; l < 4; ++l) all[l].duration = 0.15 * static_cast<double>(l + 1);
   kit::Episodes episodes(all, {});
-  const std::vector<double> zero(4 * episodes.action_size(), 0.0);
+  const std::vector<double> zero(4 * episodes.action_columns().size(), 0.0);
   const auto rows = [&](std::size_t i) {
     const In truth = episodes.truth().subspan(i * episodes.true_columns().size(), episodes.true_columns().size());
     return std::vector<double>(truth.begin(), truth.end());
@@ -164,7 +164,7 @@ TEST(Stepped, ATickAllocatesNothing) {
   std::vector<std::string> sets = kFast;
   sets.emplace_back("sensors={imu: {type: imu, body: m0/active, gyro: {noise: 0.01}}, feet: {type: load}}");
   kit::Episodes episodes(std::vector<Scenario>(8, shipped("hexapod.yaml", sets)), {});
-  std::vector<double> wanted(8 * episodes.action_size(), 0.0);
+  std::vector<double> wanted(8 * episodes.action_columns().size(), 0.0);
   for (int k = 0; k < 5; ++k) episodes.step(wanted);
   for (std::size_t i = 0; i < wanted.size(); ++i) wanted[i] = 0.01 * static_cast<double>(i % 7);
   const Allocations counted;
@@ -179,7 +179,7 @@ TEST(Stepped, ASnapshotOfEpisodesIsWholeOrRefused) {
     return kit::Episodes(std::vector<Scenario>(5, shipped("hexapod.yaml", sets)), {.record = true});
   };
   kit::Episodes one = make();
-  const std::vector<double> wanted(5 * one.action_size(), 0.1);
+  const std::vector<double> wanted(5 * one.action_columns().size(), 0.1);
   for (int k = 0; k < 7; ++k) one.step(wanted);
   const std::string bytes = one.snapshot();
   for (int k = 0; k < 7; ++k) one.step(wanted);

@@ -1,4 +1,4 @@
-#include "python/native/python_cpg.h"
+#include "python/native/python_plugins.h"
 
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
@@ -19,10 +19,11 @@ namespace gaitlab::python {
 
 namespace {
 
-constexpr const char* kManual = "A class written in Python (gaitlab.cpg), registered in this process.";
+constexpr const char* kManual = "A class written in Python (gaitlab.cpg, gaitlab.controller), registered in this process.";
 
 struct PythonClass {
-  std::string name;
+  Kind kind;
+  std::string name, unit;
   py::object type;
   std::vector<NumberSetting> settings;
 };
@@ -125,17 +126,18 @@ void expect_filled(const char* method, const py::object& returned, const py::obj
 
 /// The object, its methods (None for a missing one) and the arrays that the methods get.
 struct BoundObject {
-  py::object self, output, derivative, event, start, measured;
+  py::object self, output, derivative, event, update, start, measured;
   std::size_t states = 0;
-  CopiedArray x, rate, setpoint, angle, speed, torque, touching, channels, load;
+  CopiedArray x, rate, setpoint, limit, command, angle, speed, torque, touching, channels, load;
 
-  explicit BoundObject(py::object made) : self(std::move(made)) {
+  BoundObject(Kind kind, py::object made) : self(std::move(made)) {
     output = attribute(self, "output");
     derivative = attribute(self, "derivative");
     event = attribute(self, "event");
+    update = attribute(self, "update");
     start = attribute(self, "start");
     states = states_of(attribute(self, "states"));
-    if (states > 0 && derivative.is_none() && event.is_none())
+    if (kind == Kind::cpg && states > 0 && derivative.is_none() && event.is_none())
       throw std::runtime_error("has states, but neither derivative(m, x, rate) nor event(m, x), which would change them");
     measured = py::module_::import("types").attr("SimpleNamespace")();
   }
@@ -152,18 +154,22 @@ struct BoundObject {
   }
 };
 
+using Bound = std::unique_ptr<BoundObject, void (*)(BoundObject*)>;
+
+void start_states(BoundObject& bound, Out x) {
+  if (bound.start.is_none()) return;
+  under_lock([&] {
+    const py::array& states = bound.x.of(x);
+    expect_filled("start", bound.start(states), states, "x");
+    bound.x.take(x);
+  });
+}
+
 class PythonCpg final : public Cpg {
  public:
-  explicit PythonCpg(std::unique_ptr<BoundObject, void (*)(BoundObject*)> bound) : bound_(std::move(bound)) {}
+  explicit PythonCpg(Bound bound) : bound_(std::move(bound)) {}
   [[nodiscard]] std::size_t states() const override { return bound_->states; }
-  void start(Out x) const override {
-    if (bound_->start.is_none()) return;
-    under_lock([&] {
-      const py::array& states = bound_->x.of(x);
-      expect_filled("start", bound_->start(states), states, "x");
-      bound_->x.take(x);
-    });
-  }
+  void start(Out x) const override { start_states(*bound_, x); }
   void derivative(const Measured& m, In x, Out rate) const override {
     if (bound_->derivative.is_none()) return;
     under_lock([&] {
@@ -194,7 +200,35 @@ class PythonCpg final : public Cpg {
   }
 
  private:
-  std::unique_ptr<BoundObject, void (*)(BoundObject*)> bound_;
+  Bound bound_;
+};
+
+class PythonController final : public Controller {
+ public:
+  PythonController(Bound bound, std::shared_ptr<PythonClass> type) : bound_(std::move(bound)), type_(std::move(type)) {}
+  [[nodiscard]] std::string_view command_unit() const override { return type_->unit; }
+  [[nodiscard]] std::size_t states() const override { return bound_->states; }
+  void start(Out x) const override { start_states(*bound_, x); }
+  void update(const Measured& m, In setpoint, In limit, Out x, Out command) const override {
+    under_lock([&] {
+      BoundObject& b = *bound_;
+      std::ranges::fill(command, std::nan(""));
+      const py::array& commands = b.command.of(command);
+      const py::array& states = b.x.of(x);
+      expect_filled("update", b.update(b.of(m), b.setpoint.of(setpoint), b.limit.of(limit), states, commands), commands,
+                    "command");
+      b.x.take(x);
+      b.command.take(command);
+    });
+    for (std::size_t j = 0; j < command.size(); ++j) {
+      if (std::isnan(command[j])) throw std::runtime_error("update() left command[" + std::to_string(j) + "] nan");
+      command[j] = std::clamp(command[j], -limit[j], limit[j]);
+    }
+  }
+
+ private:
+  Bound bound_;
+  std::shared_ptr<PythonClass> type_;
 };
 
 py::list joints_of(const RobotInfo& robot) {
@@ -205,19 +239,20 @@ py::list joints_of(const RobotInfo& robot) {
   return joints;
 }
 
-void* make_cpg_of_python(const RobotInfo& robot, std::span<const void* const> settings) {
+void* make_of_python(const RobotInfo& robot, std::span<const void* const> settings) {
   const auto& values = *static_cast<const ClassValues*>(settings[0]);
   return under_lock([&]() -> void* {
     py::dict named;
     for (std::size_t k = 0; k < values.values.size(); ++k) named[values.of->settings[k].key.c_str()] = values.values[k];
-    std::unique_ptr<BoundObject, void (*)(BoundObject*)> bound(new BoundObject(values.of->type(joints_of(robot), named)),
-                                                               &end_locked<BoundObject>);
-    return static_cast<Cpg*>(new PythonCpg(std::move(bound)));
+    const Kind kind = values.of->kind;
+    Bound bound(new BoundObject(kind, values.of->type(joints_of(robot), named)), &end_locked<BoundObject>);
+    if (kind == Kind::cpg) return static_cast<Cpg*>(new PythonCpg(std::move(bound)));
+    return static_cast<Controller*>(new PythonController(std::move(bound), values.of));
   });
 }
 
 Entry entry_of(const std::shared_ptr<PythonClass>& type) {
-  Entry entry{Kind::cpg,
+  Entry entry{type->kind,
               type->name,
               kManual,
               [](const Entry& of) {
@@ -227,7 +262,7 @@ Entry entry_of(const std::shared_ptr<PythonClass>& type) {
                 return std::shared_ptr<void>(values);
               },
               [](void* values, Fields& f) { static_cast<ClassValues*>(values)->fields(f); },
-              &make_cpg_of_python};
+              &make_of_python};
   entry.context = type;
   return entry;
 }
@@ -247,17 +282,18 @@ RegisteredClasses& classes() {
 
 }  // namespace
 
-void add_class(const std::string& name, const py::object& type, std::vector<NumberSetting> settings) {
-  std::shared_ptr<PythonClass> added(new PythonClass{name, type, std::move(settings)}, &end_locked<PythonClass>);
+void add_class(Kind kind, const std::string& name, const std::string& unit, const py::object& type,
+               std::vector<NumberSetting> settings) {
+  std::shared_ptr<PythonClass> added(new PythonClass{kind, name, unit, type, std::move(settings)}, &end_locked<PythonClass>);
   try {
     kit::standard_catalog().add(entry_of(added));
   } catch (const std::invalid_argument& error) {
-    throw InputError(SourceLocation{"gaitlab.cpg"}, error.what());
+    throw InputError(SourceLocation{kind == Kind::cpg ? "gaitlab.cpg" : "gaitlab.controller"}, error.what());
   }
   RegisteredClasses& known = classes();
   const std::lock_guard lock(known.mutex);
   ++known.added;
-  const auto same = std::ranges::find(known.all, name, [](const auto& one) { return one->name; });
+  const auto same = std::ranges::find_if(known.all, [&](const auto& one) { return one->kind == kind && one->name == name; });
   if (same == known.all.end()) {
     known.all.push_back(added);
   } else {

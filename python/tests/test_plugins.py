@@ -1,4 +1,4 @@
-"""Pattern generators written in Python."""
+"""Pattern generators and controllers written in Python."""
 import gc
 import math
 import os
@@ -110,7 +110,7 @@ class Exceptions(unittest.TestCase):
             with self.subTest(method):
                 outcome = self.outcome("test_fails_" + method, states=1, **{"event": leave, method: fails})
                 self.assertRegex(outcome, f"cpg 'test_fails_{method}' \\(Python\\): {method} threw: ZeroDivisionError: oops "
-                                          r"\(.*test_cpg.py:\d+\)")
+                                          r"\(.*test_plugins.py:\d+\)")
 
     def test_before_the_run(self):
         def fails(self, *arguments):
@@ -230,6 +230,72 @@ class Registration(unittest.TestCase):
         del scenario
         gc.collect()
         self.assertIsNone(ended())
+
+
+
+class Controllers(unittest.TestCase):
+    def test_a_proportional_controller_has_the_bits_of_pid(self):
+        """pid without integral and derivative: u = clamp(Kp e) at every tick."""
+
+        @gaitlab.controller("test_P", unit="V", Kp=(40, "V/rad", 0, 1000, "Gain."))
+        class P:
+            def __init__(self, joints, settings):
+                self.Kp = settings["Kp"]
+
+            def update(self, m, setpoint, limit, x, command):
+                command[:] = self.Kp * (setpoint - m.angle)
+
+        gains = {"Kp": 30, "Ki": 0, "Kd": 0}
+        own, pid = (gaitlab.run(caterpillar(**{**FAST, "controller": one})) for one in ({"type": "test_P", "Kp": 30}, {"type": "pid", **gains}))
+        self.assertEqual((own.outcome, pid.outcome), ("done", "done"))
+        for name in pid.trace.columns:
+            self.assertTrue(np.array_equal(own.trace[name], pid.trace[name]), name)
+        self.assertGreater(np.abs(pid.trace["joint.0.voltage_command"]).max(), 1)
+        self.assertIn("type: test_P", own.resolved)
+
+    def test_states_and_limits(self):
+        """An integrator: u grows by the period in every tick from what start() gives, and is cut at the limit."""
+        seen = []
+
+        @gaitlab.controller("test_integrator", unit="V")
+        class Integrator:
+            states = 1
+
+            def __init__(self, joints, settings):
+                pass
+
+            def start(self, x):
+                x[0] = 3
+
+            def update(self, m, setpoint, limit, x, command):
+                seen.append((m.t, x[0], limit[1]))
+                x[0] += 1000 * m.period
+                command[:] = x[0]
+
+        run = gaitlab.run(caterpillar(**{**FAST, "physics.estimate": "off", "controller": {"type": "test_integrator"}}))
+        self.assertEqual(run.outcome, "done")
+        for t, x, limit in seen:
+            self.assertAlmostEqual(x, 3 + 1000 * t, places=6)
+        self.assertAlmostEqual(run.trace["joint.1.voltage_command"].max(), seen[0][2], places=12)
+
+    def test_refused(self):
+        with self.assertRaisesRegex(TypeError, r"a controller has a method update\(m, setpoint, limit, x, command\); None_ has none"):
+            gaitlab.controller("test_none", unit="V")(type("None_", (), {}))
+        with self.assertRaisesRegex(ValueError, "unit is 'A'; expected 'V', 'N m' or 'duty'"):
+            gaitlab.controller("test_none", unit="A")
+        with self.assertRaisesRegex(gaitlab.InputError, "pid"):
+            gaitlab.controller("pid", unit="V")(type("Pid", (), {"update": leave}))
+
+        def run_of(update, unit="V"):
+            made = type("Made", (), {"__init__": lambda self, joints, settings: None, "update": update})
+            gaitlab.controller("test_bad", unit=unit)(made)
+            return gaitlab.run(caterpillar(**{**FAST, "controller": {"type": "test_bad"}}))
+
+        self.assertRegex(run_of(lambda self, m, setpoint, limit, x, command: 1 / 0).outcome, "ZeroDivisionError")
+        self.assertRegex(run_of(lambda self, m, setpoint, limit, x, command: setpoint - m.angle).outcome, r"update\(\) returned ndarray; expected a method that fills its argument, as in command\[:\]")
+        self.assertRegex(run_of(lambda self, m, setpoint, limit, x, command: command[1:].fill(0)).outcome, r"update\(\) left command\[0\] nan")
+        with self.assertRaisesRegex(gaitlab.InputError, "unit"):
+            run_of(lambda self, m, setpoint, limit, x, command: command.fill(0), unit="N m")
 
 
 if __name__ == "__main__":

@@ -1,0 +1,154 @@
+// Values of an operator: the sensor against its closed form, and robots whose legs follow it.
+#include <numbers>
+
+#include "core/simulation/stepped.h"
+#include "report/analysis/cpg_alone.h"
+#include "tests/messages.h"
+#include "tests/program/allocations.h"
+#include "tests/program/fixture.h"
+
+namespace gaitlab::test {
+namespace {
+
+Scenario dog(const std::string& values, std::vector<std::string> sets = {}) {
+  sets.insert(sets.begin(), {"physics.estimate=off", "sensors={remote: {type: steering, values: {" + values + "}}}",
+                             "cpg.model={gait: trot, lift: 0.034, steering: remote}"});
+  return shipped("imported/dog-trot.yaml", sets);
+}
+
+/// v = 0 until 0.1 s, 2 (t - 0.1)/0.2 until 0.3 s, then 2: a column in force just before its row.
+TEST(Steering, IsLinearBetweenPoints) {
+  const Scenario s = dog("speed: {unit: m/s, value: 0.1}, mark: {unit: V, points: [[0.1, 0], [0.3, 2]]}",
+                         {"duration=0.5", "trace.columns=[\"sensor.*\"]", "trace.period=0.002"});
+  const Recording record = run(s);
+  const Table table(record.trace);
+  for (std::size_t row = 1; row < record.trace.rows(); ++row) {
+    const double tick = table.at(row, "t") - s.control_period;
+    EXPECT_NEAR(table.at(row, "sensor.remote.mark"), std::clamp((tick - 0.1) / 0.1, 0.0, 2.0), 1e-9) << row;
+    EXPECT_EQ(table.at(row, "sensor.remote.speed"), 0.1);
+  }
+}
+
+// With constant values the steered gait is that of the keys. Both take angles from the same least squares; the table is linear
+// between 128 samples of a cycle, which leaves theta'' h^2/8. theta'' is at most 40 rad in units of the cycle's square here.
+TEST(Steering, ConstantValuesGiveTheGaitOfTheKeys) {
+  const std::vector<std::string> sets{"duration=2.5", "trace.columns=[\"joint.*.setpoint\"]", "trace.period=0.002"};
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.end(), sets.begin(), sets.end());
+    return more;
+  };
+  const Recording steered = run(dog("speed: {value: 0.19}, turn: {value: 0.2}", sets));
+  const Recording keys = run(shipped("imported/dog-trot.yaml", with({"physics.estimate=off",
+                                                                     "cpg.model={gait: trot, lift: 0.034, speed: 0.19, turn: "
+                                                                     "0.2}"})));
+  double most = 0;
+  double moved = 0;
+  for (std::size_t row = 0; row < keys.trace.rows(); ++row) {
+    for (std::size_t c = 1; c < keys.trace.columns.size(); ++c) {
+      if (keys.trace.at(row, 0) < 1.5) continue;  // ramp, and eleven time constants of T/4
+      most = std::max(most, std::abs(steered.trace.at(row, c) - keys.trace.at(row, c)));
+      moved = std::max(moved, std::abs(keys.trace.at(row, c) - keys.trace.at(0, c)));
+    }
+  }
+  EXPECT_LT(most, 40.0 / (8 * 128 * 128));
+  EXPECT_GT(moved, 0.2) << "rad: the legs move";
+}
+
+/// Yaw of the base, rad.
+double yaw(const Table& table, std::size_t row) {
+  const double w = table.at(row, "base.qw");
+  const double x = table.at(row, "base.qx");
+  const double y = table.at(row, "base.qy");
+  const double z = table.at(row, "base.qz");
+  return std::atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z));
+}
+
+// If the feet hold, the body moves with `speed` and turns with `turn`: before, during and after a curve. The walk of the dog
+// with keys reaches 94 % of its speed (decision 56).
+TEST(Steering, ADogWalksACurve) {
+  const Scenario s = dog("speed: {value: 0.19}, turn: {points: [[3, 0], [3.2, 0.3], [6.2, 0.3], [6.4, -0.3]]}",
+                         {"duration=9.6", "trace.columns=[\"base.*\"]", "trace.period=0.01"});
+  const Recording record = run(s);
+  const Table table(record.trace);
+  const auto rate = [&](double from, double to) {
+    const auto row = [&](double t) { return static_cast<std::size_t>(std::lround(t / 0.01)); };
+    return (yaw(table, row(to)) - yaw(table, row(from))) / (to - from);
+  };
+  const double T = 1 / 1.9;  // s, of the gait: windows are whole periods
+  EXPECT_NEAR(rate(1.2, 1.2 + 3 * T), 0, 0.03);
+  EXPECT_NEAR(rate(4, 4 + 4 * T), 0.3, 0.05);
+  EXPECT_NEAR(rate(7.2, 7.2 + 4 * T), -0.3, 0.05);
+}
+
+// A steered robot starts in its stance, and the gait without its robot has the steering of the run: the legs move as far as
+// those of the keys, and other measured values change nothing.
+TEST(Steering, StartsInTheStanceAndIsKnownBeforeTheRun) {
+  const Scenario keys = shipped("imported/dog-trot.yaml", {"cpg.model={gait: trot, lift: 0.034, speed: 0.19}"});
+  const Scenario steered = dog("speed: {points: [[0, 0.19], [100, 0.19]]}");
+  EXPECT_EQ(steered.initial.angles.each, keys.initial.angles.each);
+  const auto expected = report::set_point_ranges(keys);
+  const auto found = report::set_point_ranges(steered);
+  ASSERT_EQ(found.size(), expected.size());
+  double moved = 0;
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    EXPECT_NEAR(found[k].least, expected[k].least, 2e-3) << k;  // rad; the table is linear between its samples
+    EXPECT_NEAR(found[k].most, expected[k].most, 2e-3) << k;
+    moved = std::max(moved, found[k].most - found[k].least);
+  }
+  EXPECT_GT(moved, 0.2);
+  EXPECT_FALSE(report::stated_times(steered).by_cpg) << "its set points may change later";
+}
+
+TEST(Steering, AllocatesNothingInATick) {
+  SteppedLanes lanes(std::vector<Scenario>{dog("speed: {value: 0.19}, turn: {value: 0.1}")});
+  std::vector<double> sent{0.1, -0.2};
+  std::vector<Action> actions(1);
+  actions[0].steering = sent;
+  lanes.tick(actions);
+  const Allocations allocations;
+  for (int k = 0; k < 50; ++k) lanes.tick(actions);
+  EXPECT_EQ(allocations.count(), 0);
+  EXPECT_EQ(lanes.measured(0).channels[1], -0.2) << "what was sent stays in force";
+}
+
+// Values that are sent at every tick give the bits of a run whose sensor has them.
+TEST(Steering, SentValuesGiveTheBitsOfTheRun) {
+  const Scenario s = dog("speed: {value: 0.19}, turn: {points: [[0.2, 0], [0.8, 0.3]]}", {"duration=1.2"});
+  const Recording record = run(s);
+  const Trace& poses = record.poses;
+  SteppedLanes lanes(std::vector<Scenario>{dog("speed: {value: 0}, turn: {value: 0}", {"duration=1.2"})});
+  std::vector<Action> actions(1);
+  std::vector<double> sent(2);
+  actions[0].steering = sent;
+  const std::size_t joints = s.robot->joints.size();
+  RobotState state;
+  state.q.resize(joints);
+  state.qd.resize(joints);
+  for (std::size_t k = 0; k + 1 < poses.rows(); ++k) {
+    const double t = static_cast<double>(k) * s.control_period;
+    sent = {0.19, t < 0.2 ? 0 : t >= 0.8 ? 0.3 : 0.3 * ((t - 0.2) / (0.8 - 0.2))};
+    lanes.tick(actions);
+    lanes.read(0, state);
+    for (std::size_t j = 0; j < joints; ++j) ASSERT_EQ(state.q[j], poses.at(k + 1, 8 + j)) << "tick " << k << ", joint " << j;
+  }
+}
+
+TEST(Steering, Messages) {
+  const auto refused = [](const std::vector<std::string>& sets) {
+    return message_of([&] { shipped("imported/dog-trot.yaml", sets); });
+  };
+  EXPECT_TRUE(contains(refused({"cpg.model.steering=remote"}),
+                       "no sensor gives remote.speed, remote.side or remote.turn; add sensors: {remote: {type: steering"));
+  EXPECT_TRUE(contains(refused({"cpg.model.steering=remote", "sensors={remote: {type: steering, values: {speed: {}}}}"}),
+                       "stride is given, and speed is steered by 'remote'; expected one"));
+  const auto of = [&](const std::string& value) {
+    return refused({"sensors={remote: {type: steering, values: {turn: {" + value + "}}}}"});
+  };
+  EXPECT_TRUE(contains(of("points: [[0, 1], [0, 2]]"), "point 1 of points is not later than the one before it"));
+  EXPECT_TRUE(contains(of("points: [[0, 1, 2]]"), "point 0 of points has 3 numbers; expected [time, value]"));
+  EXPECT_TRUE(contains(of("value: 1, points: [[0, 1]]"), "value and points are both given; expected one"));
+  EXPECT_TRUE(contains(refused({"sensors={remote: {type: steering}}"}), "values"));
+}
+
+}  // namespace
+}  // namespace gaitlab::test
