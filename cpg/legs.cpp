@@ -49,7 +49,8 @@ and turns with turn. Other joints stand still.
     wave                      1-1/n      the same, n legs
     ripple                    0.75       neighbours 0.25 apart, sides 0.5
 
-With a leg on the midline, the legs of walk, crawl, wave and ripple follow one another around the robot.
+With a leg on the midline, the legs of walk, crawl, wave and ripple follow one another around the robot. `phases` replaces p, `duty` the
+duty.
 
 Stance: initial.angles, if they are stated; otherwise feet below the hips, at `stance` times the length of a leg. The
 robot starts there.
@@ -83,6 +84,9 @@ void Legs::Model::fields(Fields& f) {
               {"", 0.1, 0.98,
                "Height of the hips in the stance, as a share of the length of a leg; usual: 0.75, or less near a stop."});
   f.number("ramp", ramp, {"s", 0.1, 100, "Duration of the start, in which the motion grows from the stance."});
+  f.numbers(
+      "phases", phases,
+      {"", -100, 100, "Leads p of the legs, shares of the cycle, in the order of `gaitlab check`; without them, the gait's."});
   f.text("steering", steering, "Sensor of type steering, whose values speed, side and turn replace these keys.");
 }
 
@@ -174,9 +178,9 @@ Legs::Legs(const RobotInfo& robot, const Settings& settings) : s_(settings) {
                            digits(feet) + " m in a stance; these legs reach " + digits(reach_) +
                            " m: take a higher frequency, a shorter stride or a smaller duty");
   }
-  const std::vector<double> phases = phases_of(s_.model.gait, robot.legs);
+  const std::vector<double> leads = phases(robot);
   for (std::size_t l = 0; l < legs_.size(); ++l) {
-    Step step{{robot.legs[l].joints.begin(), robot.legs[l].joints.end()}, phases[l], {}, 0, legs_[l].foot(stance_)};
+    Step step{{robot.legs[l].joints.begin(), robot.legs[l].joints.end()}, leads[l], {}, 0, legs_[l].foot(stance_)};
     plan(legs_[l], way, step);
     moved_.insert(moved_.end(), step.joints.begin(), step.joints.end());
     steps_.push_back(std::move(step));
@@ -184,6 +188,16 @@ Legs::Legs(const RobotInfo& robot, const Settings& settings) : s_(settings) {
   follow_ = 1 - math::exp(-4 * s_.frequency * robot.control_period);
   angles_ = stance_;
   describe(robot, way, height);
+}
+
+std::vector<double> Legs::phases(const RobotInfo& robot) const {
+  const std::vector<double>& given = s_.model.phases;
+  if (given.empty()) return phases_of(s_.model.gait, robot.legs);
+  if (given.size() == robot.legs.size()) return given;
+  std::string names;
+  for (const Leg& leg : robot.legs) names += (names.empty() ? "" : ", ") + leg.name;
+  throw SettingError("model.phases", "model.phases has " + std::to_string(given.size()) + " numbers; the robot has " +
+                                         std::to_string(robot.legs.size()) + " legs: " + names);
 }
 
 /// Finds the channels of the steered values.
@@ -275,10 +289,11 @@ void Legs::event(const Measured& m, Out state) const {
     if (channel_[k] != kNone) speeds[k] += follow_ * (m.channels[channel_[k]] - speeds[k]);
   }
   Way way = way_of({speeds[0], speeds[1], speeds[2]});
-  const double half = duty_ / s_.frequency / 2;
-  double farthest = 0;
-  for (const Step& step : steps_)
-    farthest = std::max(farthest, (way.foot(step.from, -half) - way.foot(step.from, half)).norm());
+  double farthest = 0;  // m, of a foot in a stance
+  for (const Step& step : steps_) {
+    const double speed = way.velocity.norm() + std::abs(way.turn) * (step.from - way.middle).norm();
+    farthest = std::max(farthest, speed * duty_ / s_.frequency);
+  }
   if (farthest > reach_) {
     const double shorter = reach_ / farthest;
     way = way_of({shorter * speeds[0], shorter * speeds[1], shorter * speeds[2]});

@@ -15,6 +15,7 @@ class Legs final : public Cpg {
   struct Model {
     Gait gait = Gait::trot;
     double stride = 0, speed = 0, side = 0, turn = 0, lift = 0, duty = 0, lean = 0.25, stance = 0, ramp = 1;
+    std::vector<double> phases;
     std::string steering;
     void fields(Fields& f);
   };
@@ -26,8 +27,8 @@ class Legs final : public Cpg {
   static const char* const kManual;
 
   /// Throws std::invalid_argument for a robot without legs, and the errors of phases_of. Throws SettingError if stride and
-  /// speed, or stance and initial.angles, are both given, for a way that is longer than twice the shortest leg, and for
-  /// steering without values.
+  /// speed, or stance and initial.angles, are both given, for a way that is longer than twice the shortest leg, for phases of
+  /// another number of legs, and for steering without values.
   Legs(const RobotInfo& robot, const Settings& settings);
   /// Without steering 0. With it: the angles of the legs (rad), held over a control period, and the speeds that are in force.
   [[nodiscard]] std::size_t states() const override { return steered() ? moved_.size() + kSteered : 0; }
@@ -58,6 +59,7 @@ class Legs final : public Cpg {
     Vec3 from = Vec3::Zero();    ///< foot in the stance
   };
   [[nodiscard]] bool steered() const { return !s_.model.steering.empty(); }
+  [[nodiscard]] std::vector<double> phases(const RobotInfo& robot) const;
   void find_steering(const RobotInfo& robot);
   [[nodiscard]] Way way_of(const std::array<double, kSteered>& speeds) const;
   [[nodiscard]] Mat3 weights_of(const Way& way, const Step& step) const;

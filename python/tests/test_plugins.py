@@ -294,7 +294,7 @@ class Controllers(unittest.TestCase):
         self.assertRegex(run_of(lambda self, m, setpoint, limit, x, command: 1 / 0).outcome, "ZeroDivisionError")
         self.assertRegex(run_of(lambda self, m, setpoint, limit, x, command: setpoint - m.angle).outcome, r"update\(\) returned ndarray; expected a method that fills its argument, as in command\[:\]")
         self.assertRegex(run_of(lambda self, m, setpoint, limit, x, command: command[1:].fill(0)).outcome, r"update\(\) left command\[0\] nan")
-        with self.assertRaisesRegex(gaitlab.InputError, "unit"):
+        with self.assertRaisesRegex(gaitlab.InputError, "commands N m, but actuator .dc_motor. takes V"):
             run_of(lambda self, m, setpoint, limit, x, command: command.fill(0), unit="N m")
 
 

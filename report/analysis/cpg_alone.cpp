@@ -43,9 +43,12 @@ StatedTimes stated_times(const Scenario& s) {
   const PluginSelection& last = s.changes.empty() ? s.cpg : s.changes.back().cpg;
   const std::unique_ptr<Cpg> cpg = make_cpg(last, plugin_info(s));
   const auto [period, full_size, from_start] = cpg->times();
-  const bool steered = std::ranges::any_of(make_sensors(s), [](const auto& sensor) { return sensor->is_steering(); });
-  StatedTimes made{period, full_size, cpg->states() == 0 || from_start ? full_size : 0,
-                   !steered && (period > 0 || full_size > 0)};
+  StatedTimes made{period, full_size, cpg->states() == 0 || from_start ? full_size : 0, period > 0 || full_size > 0};
+  const auto steering = [](const auto& sensor) { return sensor->is_steering(); };
+  if (std::ranges::any_of(make_sensors(s), steering)) {  // it may change the set points at any time
+    made.full_size = 0;
+    made.by_cpg = false;
+  }
   if (const std::vector<double> all = frequencies(s, last); !(period > 0) && !all.empty())
     made.period = 1 / *std::ranges::min_element(all);
   return made;
@@ -111,8 +114,10 @@ const std::vector<double>& CpgAlone::rows(std::int64_t ticks) {
   rows_.reserve(static_cast<std::size_t>(std::max(ticks, ticks_)) * driven_.size());
   for (; ticks_ < ticks && !StopsCpgAlone::asked(); ++ticks_) {
     const double t = static_cast<double>(ticks_) * period_;
+    Truth truth;
+    truth.tick = ticks_;
     for (const auto& [sensor, first] : steering_)
-      sensor->sense({.tick = ticks_}, {}, Out(channels_).subspan(first, sensor->readings().size()));
+      sensor->sense(truth, {}, Out(channels_).subspan(first, sensor->readings().size()));
     cpg_->event(measured(t), state_);
     cpg_->output(t, state_, setpoint_);
     for (std::size_t j = 0; j < setpoint_.size(); ++j) {

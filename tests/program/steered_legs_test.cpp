@@ -1,6 +1,8 @@
-// Values of an operator: the sensor against its closed form, and robots whose legs follow it.
+// Values of an operator against their closed form, legs that follow them, and phases of legs.
 #include <numbers>
 
+#include "core/plugin/plugin_instance.h"
+#include "core/scenario/sensor_section.h"
 #include "core/simulation/stepped.h"
 #include "report/analysis/cpg_alone.h"
 #include "tests/messages.h"
@@ -131,6 +133,29 @@ TEST(Steering, SentValuesGiveTheBitsOfTheRun) {
     lanes.read(0, state);
     for (std::size_t j = 0; j < joints; ++j) ASSERT_EQ(state.q[j], poses.at(k + 1, 8 + j)) << "tick " << k << ", joint " << j;
   }
+}
+
+// The trot by its phases, and a gait that has no name: the right legs a quarter later.
+TEST(LegPhases, ReplaceThoseOfTheGait) {
+  const auto at = [](const std::string& more, double t) {
+    const Scenario s = shipped("imported/dog-trot.yaml", {"cpg.model={gait: trot, stride: 0.1, lift: 0.034" + more + "}"});
+    std::vector<double> setpoint(s.robot->joints.size());
+    make_cpg(s.cpg, plugin_info(s))->output(t, {}, setpoint);
+    return std::pair(setpoint, plugin_info(s).legs);
+  };
+  const double T = 1 / 1.9;
+  EXPECT_EQ(at(", phases: [0, 0.5, 0.5, 0]", 3.1).first, at("", 3.1).first);
+  const auto [setpoint, legs] = at(", phases: [0, -0.25, 0.5, 0.25]", 3);
+  const auto trot = at("", 3).first;
+  const auto earlier = at("", 3 + 0.25 * T).first;  // the right front leg of the trot leads by a half, and now by -1/4
+  for (const Leg& leg : legs) {
+    for (const std::int64_t j : leg.joints) {
+      const auto k = static_cast<std::size_t>(j);
+      EXPECT_NEAR(setpoint[k], (leg.side > 0 ? trot : earlier)[k], 1e-9) << leg.name;
+    }
+  }
+  EXPECT_TRUE(contains(message_of([&] { at(", phases: [0, 0.5, 0.5]", 0); }),
+                       "model.phases has 3 numbers; the robot has 4 legs: front_left, front_right, rear_left, rear_right"));
 }
 
 TEST(Steering, Messages) {
