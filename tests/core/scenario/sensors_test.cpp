@@ -106,7 +106,7 @@ TEST_F(SensorsTest, WrongForms) {
             "m0/active}}, or {} for none");
   EXPECT_EQ(wrong("sensors: {imu: 3}"), "DIR/s.yaml:5:16: error: sensors.imu is 3; expected a map");
   EXPECT_EQ(wrong("sensors: {imu: {body: m0/a}}"),
-            "DIR/s.yaml:5:16: error: sensor 'imu' has no key 'type'; known types: encoder, imu, load, motor");
+            "DIR/s.yaml:5:16: error: sensor 'imu' has no key 'type'; known types: encoder, imu, load, motor, steering");
   EXPECT_EQ(wrong("sensors: {e: {type: encodr}}"), "DIR/s.yaml:5:21: error: type 'encodr' is unknown; did you mean 'encoder'?");
   EXPECT_EQ(
       wrong("sensors: {1st: {type: encoder}}"),
