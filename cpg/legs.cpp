@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <numbers>
+#include <tuple>
 
 #include "cpg/stance.h"
 
@@ -49,15 +50,17 @@ and turns with turn. Other joints stand still.
     wave                      1-1/n      the same, n legs
     ripple                    0.75       neighbours 0.25 apart, sides 0.5
 
-With a leg on the midline, the legs of walk, crawl, wave and ripple follow one another around the robot. `phases` replaces p, `duty` the
-duty.
+With a leg on the midline, the legs of walk, crawl, wave and ripple follow one another around the robot. `phases` replaces p (with lean: 0
+in walk and crawl, because the lean belongs to their own phases), `duty` the duty.
 
 Stance: initial.angles, if they are stated; otherwise feet below the hips, at `stance` times the length of a leg. The
 robot starts there.
 
-With `steering`, the name of a sensor of type steering, its values speed (m/s), side (m/s) and turn (rad/s) replace these keys. The
-gait follows a change with the time constant T/4. The angles are then computed at every control tick, by the same least squares from those
-of the tick before. A way that no leg can reach is shortened. States: angle.J and speed, side, turn as they are in force.
+With `steering`, the name of a sensor of type steering, its values speed (m/s), side (m/s) and turn (rad/s) replace these keys. Each is
+limited to -10 to 10, and all are reduced in the same proportion if a foot would move by more than the least 2 sqrt(L^2 - l^2) in a stance
+(L: length of a leg, l: from hip to foot). The gait follows them with the time constant T/4, from 0. The angles are then computed at every
+control tick, by the same least squares from those of the tick before, which takes three times as long as the table. States: angle.J, and
+speed, side, turn in force.
 
 Balance is not controlled: pace, bound and gallop may fall. A robot of straight legs with flat feet, such as
 the hexapod of M-TRAN modules, walks with type tripod. Legs: docs/modules.md.
@@ -185,6 +188,11 @@ Legs::Legs(const RobotInfo& robot, const Settings& settings) : s_(settings) {
     moved_.insert(moved_.end(), step.joints.begin(), step.joints.end());
     steps_.push_back(std::move(step));
   }
+  longest_ = std::numeric_limits<double>::infinity();
+  for (const LegKinematics& leg : legs_) {
+    const double straight = (leg.hip(stance_) - leg.foot(stance_)).squaredNorm();
+    longest_ = std::min(longest_, 2 * std::sqrt(std::max(0.0, leg.length() * leg.length() - straight)));
+  }
   follow_ = 1 - math::exp(-4 * s_.frequency * robot.control_period);
   angles_ = stance_;
   describe(robot, way, height);
@@ -193,6 +201,9 @@ Legs::Legs(const RobotInfo& robot, const Settings& settings) : s_(settings) {
 std::vector<double> Legs::phases(const RobotInfo& robot) const {
   const std::vector<double>& given = s_.model.phases;
   if (given.empty()) return phases_of(s_.model.gait, robot.legs);
+  if (leans(s_.model.gait) && s_.model.lean > 0)
+    throw SettingError("model.phases",
+                       "model.phases is given, and the body leans over the phases of the gait; expected lean: 0");
   if (given.size() == robot.legs.size()) return given;
   std::string names;
   for (const Leg& leg : robot.legs) names += (names.empty() ? "" : ", ") + leg.name;
@@ -214,14 +225,30 @@ void Legs::find_steering(const RobotInfo& robot) {
     channel_[k] = static_cast<std::size_t>(at - robot.channels.begin());
     any = true;
   }
+  std::string known;
+  for (const std::string& name : robot.channels) known += (known.empty() ? "" : ", ") + name;
   if (!any) {
     throw SettingError("model.steering",
                        "model.steering: no sensor gives " + wanted +
-                           "; add sensors: {remote: {type: steering, values: {turn: {unit: rad/s, value: 0.2}}}}, and "
-                           "steering: remote");
+                           (known.empty() ? "; add sensors: {remote: {type: steering, values: {turn: {unit: rad/s, value: "
+                                            "0.2}}}}, and steering: remote"
+                                          : "; the sensors give " + known));
   }
-  if (channel_[0] != kNone && s_.model.stride != 0)
-    throw SettingError("model.stride", "stride is given, and speed is steered by '" + s_.model.steering + "'; expected one");
+  for (const std::string& name : robot.channels) {
+    const bool own = name.starts_with(s_.model.steering + ".");
+    const auto known_name = [&](const char* one) { return name == s_.model.steering + "." + one; };
+    if (own && std::ranges::none_of(kSteeredNames, known_name))
+      throw SettingError("model.steering",
+                         "legs do not follow '" + name + "'; expected " + wanted + ", or another sensor for it");
+  }
+  const Model& m = s_.model;
+  const std::array<std::tuple<const char*, double, std::size_t>, 4> keys{
+      {{"stride", m.stride, 0}, {"speed", m.speed, 0}, {"side", m.side, 1}, {"turn", m.turn, 2}}};
+  for (const auto& [key, value, k] : keys) {
+    if (channel_[k] == kNone || value == 0) continue;
+    throw SettingError(std::string("model.") + key, std::string(key) + " is given, and " + kSteeredNames[k] +
+                                                        " is steered by '" + m.steering + "'; expected one");
+  }
 }
 
 /// The way with these speeds: forwards (m/s), to the left (m/s), turning (rad/s).
@@ -284,20 +311,21 @@ void Legs::start(Out state) const {
 
 void Legs::event(const Measured& m, Out state) const {
   if (!steered()) return;
-  const Out speeds = state.subspan(moved_.size());
+  constexpr double kMost = 10;  // m/s, rad/s, as of the keys
+  std::array<double, kSteered> wanted{s_.model.speed + s_.model.stride * s_.frequency, s_.model.side, s_.model.turn};
   for (std::size_t k = 0; k < kSteered; ++k) {
-    if (channel_[k] != kNone) speeds[k] += follow_ * (m.channels[channel_[k]] - speeds[k]);
+    if (channel_[k] != kNone) wanted[k] = std::clamp(m.channels[channel_[k]], -kMost, kMost);
   }
-  Way way = way_of({speeds[0], speeds[1], speeds[2]});
-  double farthest = 0;  // m, of a foot in a stance
+  double farthest = 0;  // m, way of a foot in a stance
   for (const Step& step : steps_) {
-    const double speed = way.velocity.norm() + std::abs(way.turn) * (step.from - way.middle).norm();
+    const double speed =
+        std::sqrt(wanted[0] * wanted[0] + wanted[1] * wanted[1]) + std::abs(wanted[2]) * (step.from - still_.middle).norm();
     farthest = std::max(farthest, speed * duty_ / s_.frequency);
   }
-  if (farthest > reach_) {
-    const double shorter = reach_ / farthest;
-    way = way_of({shorter * speeds[0], shorter * speeds[1], shorter * speeds[2]});
-  }
+  const double part = farthest > longest_ ? longest_ / farthest : 1;
+  const Out speeds = state.subspan(moved_.size());
+  for (std::size_t k = 0; k < kSteered; ++k) speeds[k] += follow_ * (part * wanted[k] - speeds[k]);
+  const Way way = way_of({speeds[0], speeds[1], speeds[2]});
   for (std::size_t i = 0; i < moved_.size(); ++i) angles_[moved_[i]] = state[i];
   for (std::size_t l = 0; l < steps_.size(); ++l) {
     const Vec3 to = target(way, steps_[l].from, share_of(steps_[l], m.t), steps_[l].phase);

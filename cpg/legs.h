@@ -28,7 +28,7 @@ class Legs final : public Cpg {
 
   /// Throws std::invalid_argument for a robot without legs, and the errors of phases_of. Throws SettingError if stride and
   /// speed, or stance and initial.angles, are both given, for a way that is longer than twice the shortest leg, for phases of
-  /// another number of legs, and for steering without values.
+  /// another number of legs or of a gait that leans, and for steering without values.
   Legs(const RobotInfo& robot, const Settings& settings);
   /// Without steering 0. With it: the angles of the legs (rad), held over a control period, and the speeds that are in force.
   [[nodiscard]] std::size_t states() const override { return steered() ? moved_.size() + kSteered : 0; }
@@ -77,6 +77,7 @@ class Legs final : public Cpg {
   std::vector<Step> steps_;
   std::vector<std::size_t> moved_;               ///< joints of all legs
   std::array<std::size_t, kSteered> channel_{};  ///< of each steered value, kNone for one that is not steered
+  double longest_ = 0;                           ///< m, way of a foot in a stance to which steering is limited
   double follow_ = 0;                            ///< share of a change of speed that is taken in a control period
   mutable std::vector<double> angles_;           ///< scratch, rad
   std::string note_;

@@ -26,11 +26,6 @@ namespace {
 
 constexpr std::size_t kBase = 3 + 9 + 3 + 3;  // numbers of truth before the energy: position, rotation, velocities
 
-void add(std::vector<EpisodeColumn>& columns, const std::string& quantity, const std::vector<std::string>& parts,
-         const char* unit) {
-  for (const std::string& part : parts) columns.push_back({quantity + "." + part, unit});
-}
-
 /// Difference of two scenarios that changes the rows of observations or truth, or nullptr.
 const char* other_rows(const Scenario& a, const Scenario& b) {
   const RobotInfo one = plugin_info(a);
@@ -42,38 +37,6 @@ const char* other_rows(const Scenario& a, const Scenario& b) {
     return "the modules of the robot";
   const auto same_leg = [](const Leg& x, const Leg& y) { return x.name == y.name && x.bodies == y.bodies; };
   return std::ranges::equal(one.legs, two.legs, same_leg) ? nullptr : "the legs of the robot";
-}
-
-std::vector<EpisodeColumn> observed_columns(const Scenario& s) {
-  const RobotInfo info = plugin_info(s);
-  const std::vector<std::string> joints = joint_names(*s.robot);
-  std::vector<std::string> modules;
-  for (std::size_t m = 0; m < info.modules.size(); ++m) modules.push_back(fmt::format("m{}", m));
-  std::vector<EpisodeColumn> columns;
-  add(columns, "angle", joints, "rad");
-  add(columns, "speed", joints, "rad/s");
-  add(columns, "torque", joints, "N m");
-  add(columns, "load", joints, "N");
-  add(columns, "touching", modules, "");
-  for (const auto& sensor : make_sensors(s)) {
-    for (const SensorReading& reading : sensor->readings()) {
-      if (reading.replaces == Replaces::nothing) columns.push_back({reading.name, reading.unit});
-    }
-  }
-  return columns;
-}
-
-std::vector<EpisodeColumn> columns_of_truth(const std::vector<Leg>& legs) {
-  std::vector<EpisodeColumn> columns;
-  const std::vector<std::string> axes{"x", "y", "z"};
-  add(columns, "base.position", axes, "m");
-  add(columns, "base.rotation", {"xx", "xy", "xz", "yx", "yy", "yz", "zx", "zy", "zz"}, "");
-  add(columns, "base.velocity", axes, "m/s");
-  add(columns, "base.angular_velocity", axes, "rad/s");
-  columns.push_back({"energy", "J"});
-  columns.push_back({"time", "s"});
-  for (const Leg& leg : legs) columns.push_back({"leg.load." + leg.name, "N"});
-  return columns;
 }
 
 /// Angles, speeds and velocities of a start.
@@ -128,22 +91,22 @@ Episodes::Episodes(std::vector<Scenario> scenarios, EpisodeSettings settings)
 }
 
 void Episodes::name_actions() {
-  for (const auto& sensor : make_sensors(scenarios_[0])) {
-    if (!sensor->is_steering()) continue;
-    for (const SensorReading& reading : sensor->readings()) steering_.push_back(reading.name);
-  }
   for (const ActionPart part : settings_.action) {
-    if (part == ActionPart::steering && steering_.empty()) {
-      throw InputError(
-          scenarios_[0].place("sensors"),
-          "action steering needs a sensor of type steering, such as {remote: {type: steering, values: {turn: {unit: "
-          "rad/s}}}}");
-    }
-    if (part == ActionPart::steering) {
-      action_columns_.insert(action_columns_.end(), steering_.begin(), steering_.end());
-    } else {
+    if (part != ActionPart::steering) {
       for (const std::size_t j : driven_) action_columns_.push_back(scenarios_[0].robot->joints[j].name);
+      continue;
     }
+    for (const auto& sensor : make_sensors(scenarios_[0])) {
+      if (!sensor->is_steering()) continue;
+      for (const SensorReading& reading : sensor->readings()) steering_.push_back(reading.name);
+    }
+    if (!steering_.empty()) {
+      action_columns_.insert(action_columns_.end(), steering_.begin(), steering_.end());
+      continue;
+    }
+    const char* const example = "{remote: {type: steering, values: {turn: {unit: rad/s}}}}";
+    throw InputError(scenarios_[0].place("sensors"),
+                     fmt::format("action steering needs a sensor of type steering: {}", example));
   }
 }
 
@@ -190,14 +153,16 @@ void Episodes::make_groups() {
 }
 
 std::string Episodes::problem_of(In actions) const {
-  constexpr double kLargest = 3.2;  // rad, as check_angle() of robot_info.h
+  constexpr double kLargest = 3.2;   // rad, as check_angle() of robot_info.h
+  constexpr double kFarthest = 1e9;  // of any number, as in a scenario
   const std::size_t row = action_columns_.size();
   const std::size_t motors = driven_.size();
   const auto part = [&](ActionPart wanted) { return std::ranges::find(settings_.action, wanted) != settings_.action.end(); };
   for (std::size_t i = 0; i < size(); ++i) {
     const In own = actions.subspan(i * row, row);
     for (std::size_t k = 0; k < row; ++k) {
-      if (!std::isfinite(own[k])) return fmt::format("action[{}, {}] is {} ({})", i, k, own[k], action_columns_[k]);
+      if (!(std::abs(own[k]) <= kFarthest))
+        return fmt::format("action[{}, {}] is {} ({}); expected at most 1e9", i, k, own[k], action_columns_[k]);
     }
     for (std::size_t d = 0; ended_[i] == 0 && d < motors; ++d) {
       const Joint& joint = scenarios_[i].robot->joints[driven_[d]];
@@ -253,7 +218,11 @@ void Episodes::step_group(std::size_t g, In actions) {
       const std::vector<double>& asked = own.asked(l);
       outcomes_[i] = own.outcome(l);
       const bool given = outcomes_[i].ended != Ended::plugin;  // a plugin that threw gave no set points
-      if (settings_.record && given) kept_[i].insert(kept_[i].end(), asked.begin(), asked.end());
+      if (settings_.record && given) {
+        const In sent = actions_[g][l].steering;
+        kept_[i].set_points.insert(kept_[i].set_points.end(), asked.begin(), asked.end());
+        kept_[i].steering.insert(kept_[i].steering.end(), sent.begin(), sent.end());
+      }
       ended_[i] = own.ended(l) ? 1 : 0;
       // A failed lane is at its start again; its last rows are from the tick before.
       if (outcomes_[i].done()) read(i);
@@ -306,7 +275,7 @@ void Episodes::restart(std::span<const std::size_t> which, std::span<const Initi
     }
     outcomes_[i] = {};
     ended_[i] = 0;
-    kept_[i].clear();
+    kept_[i] = {};
     read(i);
   }
 }
@@ -332,7 +301,8 @@ std::string Episodes::snapshot() const {
     std::vector<double> numbers(from.size(places_[i].lane));
     from.save(places_[i].lane, numbers);
     put(body, numbers);
-    put(body, kept_[i]);
+    put(body, kept_[i].set_points);
+    put(body, kept_[i].steering);
     put(body, numbers_of(starts_[i], joints));
     put(body, std::vector<double>{ended_[i] != 0 ? 1.0 : 0.0, static_cast<double>(outcomes_[i].ended)});
     put(body, outcomes_[i].message);
@@ -356,7 +326,8 @@ void Episodes::restore(const std::string& bytes) try {
   Bytes body(rest.substr(kHash + 1));
   const std::size_t joints = scenarios_[0].robot->joints.size();
   struct One {
-    std::vector<double> lane, kept;
+    std::vector<double> lane;
+    Kept kept;
     Initial start;
     bool ended = false;
     Outcome outcome;
@@ -366,7 +337,7 @@ void Episodes::restore(const std::string& bytes) try {
     One& one = all[i];
     one.lane = body.numbers(group(i).size(places_[i].lane));
     if (!group(i).fits(places_[i].lane, one.lane)) throw BadBytes("do not fit");
-    one.kept = body.rows(joints);
+    one.kept = {body.rows(joints), body.rows(std::max<std::size_t>(1, steering_.size()))};
     const std::vector<double> start = body.numbers(2 * joints + 6);
     const auto speeds = start.begin() + static_cast<std::ptrdiff_t>(joints);
     const auto base = speeds + static_cast<std::ptrdiff_t>(joints);

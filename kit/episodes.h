@@ -8,6 +8,7 @@
 
 #include "core/scenario/scenario.h"
 #include "core/simulation/stepped.h"
+#include "kit/episode_columns.h"
 
 namespace gaitlab {
 namespace kit {
@@ -33,11 +34,6 @@ struct EpisodeSettings {
   int threads = 1;
   std::size_t lanes = 0;  ///< as BatchSettings::lanes
   bool record = false;    ///< true if set points are kept for set_points()
-};
-
-/// A number of a row of observations or of truth.
-struct EpisodeColumn {
-  std::string name, unit;
 };
 
 /// Environments, one per scenario. They share engine, step, control period and structure of the robot (can_share). An
@@ -78,7 +74,10 @@ class Episodes {
   [[nodiscard]] const std::string& message(std::size_t i) const { return outcomes_[i].message; }
 
   /// Set points of the environment since its start, a row of all joints per control tick, rad. Empty if they are not kept.
-  [[nodiscard]] const std::vector<double>& set_points(std::size_t i) const { return kept_[i]; }
+  [[nodiscard]] const std::vector<double>& set_points(std::size_t i) const { return kept_[i].set_points; }
+  /// Names of the steered values, empty if the action has none, and a row of them per control tick as set_points().
+  [[nodiscard]] const std::vector<std::string>& steering() const { return steering_; }
+  [[nodiscard]] const std::vector<double>& steered(std::size_t i) const { return kept_[i].steering; }
   [[nodiscard]] const RobotState& state(std::size_t i) const { return states_[i]; }  ///< at its last row
   [[nodiscard]] const Initial& start(std::size_t i) const { return starts_[i]; }     ///< at its last start
 
@@ -90,6 +89,9 @@ class Episodes {
  private:
   struct Place {
     std::size_t group = 0, lane = 0;
+  };
+  struct Kept {
+    std::vector<double> set_points, steering;
   };
   [[nodiscard]] SteppedLanes& group(std::size_t i) const { return *groups_[places_[i].group]; }
   void name_actions();
@@ -110,7 +112,7 @@ class Episodes {
   std::vector<double> observations_, truth_;
   std::vector<Outcome> outcomes_;
   std::vector<char> ended_;
-  std::vector<std::vector<double>> kept_;
+  std::vector<Kept> kept_;
   std::vector<Initial> starts_;
   std::vector<std::vector<std::size_t>> leg_bodies_;
   std::vector<RobotState> states_;

@@ -6,11 +6,60 @@
 #include <cmath>
 
 #include "core/errors.h"
+#include "core/scenario/sections.h"
+#include "core/scenario/sensor_section.h"
+#include "core/settings/node.h"
 
 namespace gaitlab::kit {
 
-std::vector<std::string> recorded_settings(const Scenario& s, const std::vector<double>& set_points, const Initial& start,
-                                           double period) {
+namespace {
+
+/// Points of a value that is held from tick to tick: at each change the old value at the tick before, and the new one.
+std::string points(const Recorded& episode, std::size_t column, double control_period) {
+  const std::size_t width = episode.steering.size();
+  std::string all;
+  std::size_t last = 0;
+  for (std::size_t k = 0; k * width < episode.steered.size(); ++k) {
+    const double value = episode.steered[k * width + column];
+    const double before = episode.steered[(k == 0 ? 0 : k - 1) * width + column];
+    if (k > 0 && value == before) continue;
+    const auto add = [&](std::size_t tick, double v) {
+      all += fmt::format("{}[{}, {}]", all.empty() ? "" : ", ", static_cast<double>(tick) * control_period, v);
+    };
+    if (k > last + 1) add(k - 1, before);
+    add(k, value);
+    last = k;
+  }
+  return "points: [" + all + "]";
+}
+
+/// Section `sensors` with the values that were sent.
+std::string steered_sensors(const Scenario& s, const Recorded& episode) {
+  Node sensors = sensors_node(s, joint_names(*s.robot));
+  for (std::size_t i = 0; i < sensors.keys.size(); ++i) {
+    for (std::size_t k = 0; k < sensors.items[i].keys.size(); ++k) {
+      if (sensors.items[i].keys[k].first != "values") continue;
+      Node& values = sensors.items[i].items[k];
+      for (std::size_t v = 0; v < values.keys.size(); ++v) {
+        const auto at = std::ranges::find(episode.steering, sensors.keys[i].first + "." + values.keys[v].first);
+        if (at == episode.steering.end()) continue;
+        Node sent =
+            parse_yaml(points(episode, static_cast<std::size_t>(at - episode.steering.begin()), s.control_period), "run");
+        if (const Node* const unit = values.items[v].find("unit")) {
+          sent.keys.emplace_back("unit", SourceLocation{});
+          sent.items.push_back(*unit);
+        }
+        values.items[v] = std::move(sent);
+      }
+    }
+  }
+  return "sensors=" + print_yaml(sensors);
+}
+
+}  // namespace
+
+std::vector<std::string> recorded_settings(const Scenario& s, const Recorded& episode, double period) {
+  const auto& [set_points, steering, steered, start] = episode;
   constexpr std::size_t kMost = 40000;  // numbers; a YAML text has at most 1 MB
   const auto refuse_set_points = [](const std::string& what) { throw InputError(SourceLocation{"run"}, what); };
   const std::size_t joints = s.robot->joints.size();
@@ -46,12 +95,15 @@ std::vector<std::string> recorded_settings(const Scenario& s, const std::vector<
     return all;
   };
   const auto vector = [&](const Vec3& v) { return list(std::vector<double>(v.data(), v.data() + 3)); };
-  return {fmt::format("cpg={{type: table, model: {{interpolation: hold, repeat: false, cycle: {}, file: \"{}\\n\"}}}}", period,
-                      table),
-          fmt::format("initial={{angles: {}, speeds: {}, base_velocity: {}, base_angular_velocity: {}}}",
-                      list(of_joints(start.angles)), list(of_joints(start.speeds)), vector(start.base_velocity),
-                      vector(start.base_angular_velocity)),
-          fmt::format("duration={}", static_cast<double>(rows) * s.control_period)};
+  std::vector<std::string> sets{
+      fmt::format("cpg={{type: table, model: {{interpolation: hold, repeat: false, cycle: {}, file: \"{}\\n\"}}}}", period,
+                  table),
+      fmt::format("initial={{angles: {}, speeds: {}, base_velocity: {}, base_angular_velocity: {}}}",
+                  list(of_joints(start.angles)), list(of_joints(start.speeds)), vector(start.base_velocity),
+                  vector(start.base_angular_velocity)),
+      fmt::format("duration={}", static_cast<double>(rows) * s.control_period)};
+  if (!steering.empty()) sets.push_back(steered_sensors(s, episode));
+  return sets;
 }
 
 }  // namespace gaitlab::kit

@@ -1,7 +1,7 @@
 #include "sensors/steering.h"
 
 #include <algorithm>
-#include <cmath>
+#include <cctype>
 
 namespace gaitlab::sensors {
 
@@ -23,20 +23,29 @@ Source: none; linear interpolation. Defaults (chosen): 0, no unit.
           turn: {unit: rad/s, points: [[0, 0], [2, 0], [3, 0.3]]})";
 
 void SteeringSensor::Sent::fields(Fields& f) {
-  f.text("unit", unit, "Unit, such as m/s, for columns and messages.");
-  f.number("value", value, {"", -1e9, 1e9, "The value, in its unit."});
-  f.rows("points", points, {"", -1e9, 1e9, "Instead of value: [time (s), value (in its unit)], in ascending order of time."});
-  if (value != 0 && !points.empty()) f.problem("points", "value and points are both given; expected one");
+  f.text("unit", unit, "Unit, for columns; that of speed and side is m/s, that of turn rad/s.");
+  f.rows("points", points, {"", -1e9, 1e9, "Rows [time (s), value], in ascending order of time, in place of `value`."});
+  if (points.empty()) f.number("value", value, {"", -1e9, 1e9, "The value, if it is constant."});
+  const char* const fixed = name == "turn" ? "rad/s" : name == "speed" || name == "side" ? "m/s" : "";
+  if (*fixed != '\0' && !unit.empty() && unit != fixed)
+    f.problem("unit", "unit of " + name + " is " + unit.substr(0, 20) + "; expected " + fixed + ", or another name");
   for (std::size_t k = 0; k < points.size(); ++k) {
-    const std::string name = "point " + std::to_string(k) + " of points";
+    const std::string number = "point " + std::to_string(k) + " of points";
     if (points[k].size() != 2)
-      return f.problem("points", name + " has " + std::to_string(points[k].size()) + " numbers; expected [time, value]");
-    if (k > 0 && points[k][0] <= points[k - 1][0]) return f.problem("points", name + " is not later than the one before it");
+      return f.problem("points", number + " has " + std::to_string(points[k].size()) + " numbers; expected [time, value]");
+    if (k > 0 && points[k][0] <= points[k - 1][0])
+      return f.problem("points", number + " is not later than the one before it; a jump takes a control period");
   }
 }
 
 void SteeringSensor::Settings::fields(Fields& f) {
   Marked(f, Need::required).by_name("values", values, "turn: {unit: rad/s, value: 0.2}", "Values by name.");
+  for (const Sent& one : values) {
+    const auto part = [](unsigned char c) { return c < 0x80 && (std::isalnum(c) != 0 || c == '_'); };
+    if (one.name.empty() || std::isalpha(static_cast<unsigned char>(one.name[0])) == 0 || !std::ranges::all_of(one.name, part))
+      f.problem("values",
+                "'" + one.name.substr(0, 40) + "' is not a name of a value; expected a letter, then letters, digits and _");
+  }
 }
 
 SteeringSensor::SteeringSensor(const SensorSite& site, const Settings& settings)

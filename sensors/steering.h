@@ -10,8 +10,8 @@ class SteeringSensor final : public Sensor {
   /// first and after the last point.
   struct Sent {
     std::string name, unit;
+    std::vector<std::vector<double>> points;  ///< rows t (s), v; empty for a constant value
     double value = 0;
-    std::vector<std::vector<double>> points;  ///< rows t (s), v
     void fields(Fields& f);
   };
   struct Settings {

@@ -357,8 +357,10 @@ void ScenarioReader::make_plugins(const SectionFields& sections) {
     controller_note_ = {{path_}, "controller: " + controller->note()};
     scenario_.notes.push_back(controller_note_);
   });
+  const Node* const sensors = root_.find("sensors");
+  const bool sensed = sensors == nullptr || sensors->items.empty() || !scenario_.sensors.empty();  // else with a fault
   attempt([&] {
-    if (!sections.has_cpg || !sections.cpg.sound) return;
+    if (!sections.has_cpg || !sections.cpg.sound || !sensed) return;
     const auto cpg = make_cpg(scenario_.cpg, robot);
     if (!scenario_.initial.stated) scenario_.initial.angles = start_of(cpg.get());
     if (!cpg || cpg->note().empty()) return;

@@ -7,6 +7,7 @@ from . import _native
 
 _Class = TypeVar("_Class", bound=type)
 _Setting = Union[float, tuple[Any, ...]]
+_OF_SECTION = {"cpg": ("type", "step"), "controller": ("type", "period")}
 
 
 class Joint(NamedTuple):
@@ -35,8 +36,8 @@ def cpg(name: str, **settings: _Setting) -> Callable[[_Class], _Class]:
         derivative(m, x, rate)          fills the time derivatives of the states
         event(m, x)                     changes states at a control tick, before output()
 
-    t is the time, s. m has t, period (s) and the arrays angle (rad), speed (rad/s), torque (N m), touching (1 or 0 per module)
-    and channels (of sensors). Arrays are copies, filled in place: setpoint[:] = ... All that changes belongs into x and never
+    t is the time, s. m has t, period (s) and the arrays angle (rad), speed (rad/s), torque (N m), load (N), touching (1 or 0 per
+    module) and channels (of sensors), whose names are the list channel_names. Arrays are copies, filled in place: setpoint[:] = ... All that changes belongs into x and never
     into self, because runs integrate derivative() several times a step.
 
     An exception ends the run; its type, text and line are in the outcome. A class registered again under its name replaces the
@@ -89,6 +90,10 @@ def _registration(
             numbers.append((key, float(default), str(of), float(low), float(high), str(about)))
         except (OverflowError, TypeError, ValueError):
             raise ValueError(f"setting {key} is {given!r:.100}; expected a number, or (default, unit, low, high, sentence)") from None
+        if key in _OF_SECTION[kind]:
+            raise ValueError(f"setting {key} has the name of a key of section {kind}; expected another name")
+        if not float(low) <= float(default) <= float(high):
+            raise ValueError(f"setting {key}: the default {default} is outside {low} to {high}")
 
     def register(made: _Class) -> _Class:
         if not isinstance(made, type):

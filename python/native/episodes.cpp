@@ -164,7 +164,9 @@ void restart(PyEpisodes& episodes, const std::vector<std::size_t>& which, const 
 
 /// A scenario with the set points of an environment since its start.
 std::shared_ptr<PyScenario> recorded(const PyEpisodes& episodes, std::size_t i, double period) {
-  Texts sets = kit::recorded_settings(episodes.all->scenario(i), episodes.all->set_points(i), episodes.all->start(i), period);
+  const kit::Episodes& all = *episodes.all;
+  const kit::Recorded episode{all.set_points(i), all.steering(), all.steered(i), all.start(i)};
+  Texts sets = kit::recorded_settings(all.scenario(i), episode, period);
   const PyScenario before{episodes.file, episodes.own[i], {}};
   return with_sets(before, sets);
 }

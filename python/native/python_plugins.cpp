@@ -130,7 +130,7 @@ struct BoundObject {
   std::size_t states = 0;
   CopiedArray x, rate, setpoint, limit, command, angle, speed, torque, touching, channels, load;
 
-  BoundObject(Kind kind, py::object made) : self(std::move(made)) {
+  BoundObject(Kind kind, py::object made, const std::vector<std::string>& channel_names) : self(std::move(made)) {
     output = attribute(self, "output");
     derivative = attribute(self, "derivative");
     event = attribute(self, "event");
@@ -140,6 +140,7 @@ struct BoundObject {
     if (kind == Kind::cpg && states > 0 && derivative.is_none() && event.is_none())
       throw std::runtime_error("has states, but neither derivative(m, x, rate) nor event(m, x), which would change them");
     measured = py::module_::import("types").attr("SimpleNamespace")();
+    measured.attr("channel_names") = py::cast(channel_names);
   }
   const py::object& of(const Measured& m) {
     measured.attr("t") = m.t;
@@ -220,6 +221,8 @@ class PythonController final : public Controller {
       b.x.take(x);
       b.command.take(command);
     });
+    const auto unknown = std::ranges::find_if(x, [](double one) { return std::isnan(one); });
+    if (unknown != x.end()) throw std::runtime_error("update() left x[" + std::to_string(unknown - x.begin()) + "] nan");
     for (std::size_t j = 0; j < command.size(); ++j) {
       if (std::isnan(command[j])) throw std::runtime_error("update() left command[" + std::to_string(j) + "] nan");
       command[j] = std::clamp(command[j], -limit[j], limit[j]);
@@ -245,7 +248,7 @@ void* make_of_python(const RobotInfo& robot, std::span<const void* const> settin
     py::dict named;
     for (std::size_t k = 0; k < values.values.size(); ++k) named[values.of->settings[k].key.c_str()] = values.values[k];
     const Kind kind = values.of->kind;
-    Bound bound(new BoundObject(kind, values.of->type(joints_of(robot), named)), &end_locked<BoundObject>);
+    Bound bound(new BoundObject(kind, values.of->type(joints_of(robot), named), robot.channels), &end_locked<BoundObject>);
     if (kind == Kind::cpg) return static_cast<Cpg*>(new PythonCpg(std::move(bound)));
     return static_cast<Controller*>(new PythonController(std::move(bound), values.of));
   });

@@ -190,6 +190,35 @@ class Rows(unittest.TestCase):
         self.assertGreater(position[1, 0], 0.7)  # m, of 1.14 less the start
         self.assertEqual(list(envs.reset()[:, where]), [0, 0, 0])
 
+    def test_the_run_of_a_steered_episode_has_what_was_sent(self):
+        @gaitlab.controller("test_steered", unit="V")
+        class Leaning:
+            def __init__(self, joints, settings):
+                pass
+
+            def update(self, m, setpoint, limit, x, command):
+                lamp = m.channels[m.channel_names.index("second.lamp")]
+                command[:] = 30 * (setpoint + 0.1 * lamp - m.angle)
+
+        sensors = {
+            "remote": {"type": "steering", "values": {"speed": {"unit": "m/s"}}},
+            "second": {"type": "steering", "values": {"lamp": {"points": [[0, 1]]}}},
+        }
+        model = {"gait": "trot", "lift": 0.034, "steering": "remote"}
+        settings = {"sensors": sensors, "cpg.model": model, "controller": {"type": "test_steered", "period": 0.002}, "physics.estimate": "off"}
+        envs = gaitlab.start(gaitlab.Scenario("dog-trot", {**settings, "trace.columns": ["sensor.*"], "trace.period": 0.002}), 1, action="steering", copy=True)
+        sent = [[0.1, 0]] * 3 + [[0.2, 0.5]] + [[0.2, -0.5]] * 4 + [[0.05, 0.3]] * 2
+        for k, row in enumerate(sent):
+            envs.step([row])
+            if k == 4:
+                kept = envs.snapshot()
+        envs.restore(kept)
+        for row in sent[5:]:
+            envs.step([row])
+        trace = envs.run(0).trace  # raises if it does not end as the episode
+        self.assertEqual([[a, b] for a, b in zip(trace["sensor.remote.speed"], trace["sensor.second.lamp"])][1:], sent)
+
+
     def test_the_last_row_is_that_of_a_longer_episode(self):
         short, long = (gaitlab.start(hexapod(duration=duration), 1, copy=True) for duration in (0.15, 1))
         for _ in range(10):

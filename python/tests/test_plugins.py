@@ -281,6 +281,10 @@ class Controllers(unittest.TestCase):
     def test_refused(self):
         with self.assertRaisesRegex(TypeError, r"a controller has a method update\(m, setpoint, limit, x, command\); None_ has none"):
             gaitlab.controller("test_none", unit="V")(type("None_", (), {}))
+        with self.assertRaisesRegex(ValueError, "setting period has the name of a key of section controller"):
+            gaitlab.controller("test_none", unit="V", period=0.1)
+        with self.assertRaisesRegex(ValueError, "setting Kp: the default 5 is outside 0 to 1"):
+            gaitlab.controller("test_none", unit="V", Kp=(5, "V", 0, 1, "Gain."))
         with self.assertRaisesRegex(ValueError, "unit is 'A'; expected 'V', 'N m' or 'duty'"):
             gaitlab.controller("test_none", unit="A")
         with self.assertRaisesRegex(gaitlab.InputError, "pid"):

@@ -136,7 +136,7 @@ def main():
     program = os.path.abspath(words[0])
     chosen = words[1:] or [page for page in pages.listed() if page not in NOT_RUN and page != 'CHANGELOG.md']
     if not words[1:] and 'GAITLAB_QUARTER' in os.environ:
-        chosen = chosen[int(os.environ['GAITLAB_QUARTER'])::2]  # in CI every second page
+        chosen = chosen[int(os.environ['GAITLAB_QUARTER'])::4]  # in CI every fourth page
     bad = sum(Page(path, program, bool(options)).test() for path in chosen)
     print('{} bad'.format(bad))
     return 1 if bad else 0

@@ -259,7 +259,7 @@ def main():
     parser.add_argument("--keep", type=pathlib.Path)
     parser.add_argument("--seed", type=int, default=SEED)
     options = parser.parse_intermixed_args()
-    # In CI every fourth run, others at each landing; what must have occurred is counted over all of them.
+    # In CI every fourth run, others at each landing. What must have occurred is counted only where all runs are made.
     quarter = int(os.environ["GAITLAB_QUARTER"]) if "GAITLAB_QUARTER" in os.environ else None
     with tempfile.TemporaryDirectory() as temporary:
         work = options.keep or pathlib.Path(temporary)

@@ -31,6 +31,44 @@ TEST(Steering, IsLinearBetweenPoints) {
   }
 }
 
+/// A dog whose steering is neither the first nor the only sensor, and its speeds in force at the end.
+struct Steered {
+  explicit Steered(const std::string& values)
+      : record(run(
+            shipped("imported/dog-trot.yaml",
+                    {"physics.estimate=off", "duration=0.6", "trace.columns=[\"cpg.*\"]", "trace.period=0.002",
+                     "cpg.model={gait: trot, lift: 0.034, steering: remote}",
+                     "sensors={imu: {type: imu, body: m0/trunk}, second: {type: steering, values: {lamp: {value: 7}}}, remote: "
+                     "{type: steering, values: {" +
+                         values + "}}, load: {type: load}}"}))),
+        table(record.trace) {}
+  [[nodiscard]] double last(const std::string& name) const { return table.at(record.trace.rows() - 1, name); }
+  Recording record;
+  Table table;
+};
+
+// The speeds in force approach the values with T/4: v (1 - e^(-4 f t)), exactly so at the ticks, because the values are held
+// between them. Each value has a different order among the sensors and among the speeds.
+TEST(Steering, SpeedsFollowWithAQuarterOfAPeriod) {
+  const Steered steered("turn: {value: 0.2}, speed: {value: 0.1}, side: {value: -0.05}");
+  for (std::size_t row = 0; row < steered.record.trace.rows(); row += 10) {
+    const double part = 1 - std::exp(-4 * 1.9 * steered.table.at(row, "t"));
+    EXPECT_NEAR(steered.table.at(row, "cpg.speed"), 0.1 * part, 1e-12) << row;
+    EXPECT_NEAR(steered.table.at(row, "cpg.side"), -0.05 * part, 1e-12) << row;
+    EXPECT_NEAR(steered.table.at(row, "cpg.turn"), 0.2 * part, 1e-12) << row;
+  }
+}
+
+// Values are limited to 10, then reduced together: 1e9 m/s is (10, 0), and (8, 6) is as long as that.
+TEST(Steering, TooLongWaysAreReducedInProportion) {
+  const double most = Steered("speed: {value: 1e9}").last("cpg.speed");
+  const Steered across("speed: {value: 8}, side: {value: 6}");
+  EXPECT_GT(most, 1) << "m/s";
+  EXPECT_LT(most, 5);
+  EXPECT_NEAR(across.last("cpg.speed"), 0.8 * most, 1e-12);
+  EXPECT_NEAR(across.last("cpg.side"), 0.6 * most, 1e-12);
+}
+
 // With constant values the steered gait is that of the keys. Both take angles from the same least squares; the table is linear
 // between 128 samples of a cycle, which leaves theta'' h^2/8. theta'' is at most 40 rad in units of the cycle's square here.
 TEST(Steering, ConstantValuesGiveTheGaitOfTheKeys) {
@@ -171,8 +209,20 @@ TEST(Steering, Messages) {
   };
   EXPECT_TRUE(contains(of("points: [[0, 1], [0, 2]]"), "point 1 of points is not later than the one before it"));
   EXPECT_TRUE(contains(of("points: [[0, 1, 2]]"), "point 0 of points has 3 numbers; expected [time, value]"));
-  EXPECT_TRUE(contains(of("value: 1, points: [[0, 1]]"), "value and points are both given; expected one"));
+  EXPECT_TRUE(contains(of("value: 0, points: [[0, 1]]"), "unknown key 'value'"));
   EXPECT_TRUE(contains(refused({"sensors={remote: {type: steering}}"}), "values"));
+  EXPECT_TRUE(contains(of("unit: deg/s, value: 20"), "unit of turn is deg/s; expected rad/s, or another name"));
+  EXPECT_TRUE(contains(refused({"cpg.model.steering=remot", "sensors={remote: {type: steering, values: {speed: {}}}}"}),
+                       "no sensor gives remot.speed, remot.side or remot.turn; the sensors give remote.speed"));
+  EXPECT_TRUE(
+      contains(refused({"cpg.model={steering: remote}", "sensors={remote: {type: steering, values: {turn: {}, sped: {}}}}"}),
+               "legs do not follow 'remote.sped'; expected remote.speed, remote.side or remote.turn"));
+  EXPECT_TRUE(
+      contains(refused({"cpg.model={steering: remote, turn: 1}", "sensors={remote: {type: steering, values: {turn: {}}}}"}),
+               "turn is given, and turn is steered by 'remote'; expected one"));
+  EXPECT_TRUE(
+      contains(refused({"sensors={remote: {type: steering, values: {\"tu rn\": {}}}}"}), "'tu rn' is not a name of a value"));
+  EXPECT_TRUE(contains(refused({"cpg.model={gait: walk, phases: [0, 0.5, 0.75, 0.25]}"}), "expected lean: 0"));
 }
 
 }  // namespace
