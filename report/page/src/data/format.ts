@@ -136,6 +136,7 @@ export interface Verdict {
   verdict: "feasible" | "infeasible" | "failed" | "not judged";
   reason: string; // reason of `not judged`
   reason_check?: string; // id of the check that it names: too close, failing so far, or not judged
+  events?: { time: number; check: string; part: string | null }[]; // failed checks by the time at which they first fail
   failures: string[]; // ids of the failed checks: the one that decides, those of group `run`, then by margin
   why: string; // text after the verdict, as on the terminal; "" for feasible
   unstable?: string; // sentence on an unstable controller, from which all other findings follow

@@ -1,6 +1,7 @@
 // Verdict of the page: a card per run with the verdict, the reasons for the verdict, and the main numbers of the run.
 import { about } from "./about";
 import { element, icon, make } from "../dom";
+import { events } from "./events";
 import type { Fact } from "./facts";
 import type { Overlay } from "../data/format";
 import type { Ghost } from "../data/ghost";
@@ -19,6 +20,7 @@ const badges: Record<Mood, string> = {
 export function headline(desk: Desk): void {
   const { ghost } = desk;
   const own = element("verdict");
+  if (!ghost?.overlay.strayed) desk.runs.forEach((run, n) => aboveTime(run, ghost?.overlay.labels[n] ?? ""));
   if (!ghost) {
     card(own, desk, judgement(desk), aside(desk.recording.meta));
     return;
@@ -33,6 +35,15 @@ export function headline(desk: Desk): void {
     cards(own, desk, overlay);
   }
   pair(ghost);
+}
+
+/** The events of a run above the time slider, after the name of the run. */
+function aboveTime(run: Run, label: string): void {
+  const list = make("ol.events");
+  list.ariaLabel = `What failed${label && ` in ${label}`}`;
+  list.dataset.run = label;
+  element("happened").append(list);
+  events(list, run);
 }
 
 /** Legend of two runs, and a list of their differences. */
@@ -91,6 +102,7 @@ function card(host: HTMLElement, run: Run, { mood, said, why, facts }: Judgement
   part("badge").append(icon(badges[mood], 24));
   part("said").textContent = said;
   part("reason").textContent = why.join(" ");
+  events(part("events"), run);
   part("aside").append(...beside.flatMap((one) => [one, " "]));
   part("facts").dataset.count = String(facts.length);
   part("facts").append(

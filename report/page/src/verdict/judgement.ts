@@ -1,5 +1,6 @@
 // Judgement of a run in words: the verdict, the reasons for the verdict, and the limitations of the verdict.
 import { make } from "../dom";
+import { happened } from "./events";
 import { built, hardest, shortfall, walked, type Fact } from "./facts";
 import { folder } from "../data/folder";
 import type { Check, Meta } from "../data/format";
@@ -57,7 +58,7 @@ function ended(run: Run): Judgement {
   return {
     mood: "bad",
     said: `The run ended early, at ${quantity(meta.duration, "s")}`,
-    why: [sentence(meta.verdict.why || meta.outcome), ...others(failures(meta).filter((c) => c.id !== "outcome"))],
+    why: [sentence(meta.verdict.why || meta.outcome), ...others(meta, failures(meta))],
     facts: walked(run),
   };
 }
@@ -69,7 +70,7 @@ function infeasible(run: Run): Judgement {
   return {
     mood: "bad",
     said: first?.group === "motor" && !meta.verdict.unstable ? "Not feasible with these motors" : "Not feasible",
-    why: [sentence(meta.verdict.why), ...others(rest)],
+    why: [sentence(meta.verdict.why), ...others(meta, rest)],
     facts: first ? shortfall(run, first, failed) : walked(run),
   };
 }
@@ -81,7 +82,7 @@ function unjudged(run: Run): Judgement {
   return {
     mood: "open",
     said: "Not judged",
-    why: [sentence(why || reason), ...(failed.some((c) => c.id === reason_check) ? [] : others(failed))],
+    why: [sentence(why || reason), ...(failed.some((c) => c.id === reason_check) ? [] : others(meta, failed))],
     facts: walked(run),
   };
 }
@@ -127,7 +128,9 @@ export function leading(run: Run): Check | null {
   );
 }
 
-function others(failed: Check[]): string[] {
+/** Failed checks that the line of events does not contain. */
+function others(meta: Meta, all: Check[]): string[] {
+  const failed = all.filter((c) => c.id !== "outcome" && !happened(meta).includes(c));
   const rest = failed.length - few;
   const more = rest > 0 ? `; ${plural(rest, "more check")} fail${rest > 1 ? "" : "s"}` : "";
   return failed.length ? [`Also: ${briefly(failed.slice(0, few))}${more}.`] : [];
