@@ -305,6 +305,26 @@ on("an unstable controller is the only finding of the card, and its checks have 
   assert.equal(await page.locator("#checks .try").count(), 0, "no advice such as larger gains");
 });
 
+// Reasons as of report/verdict: a run that is too short, a number that is impossible, a value within its error of the limit.
+const lacking = "2 s contain only 0.5 of the 3 periods of 4 s that a gait needs";
+const impossible = "body 'a' of link (0.1 kg) has a moment of inertia of 1 kg m^2, as much as a ring of radius 3.2 m, but the body's extent is 0.12 m; give values that are physically possible";
+for (const [name, verdict, first, rest] of [
+  ["too short", { why: `${lacking}; take duration: 12; and the torque of joint m1/active is off; take physics.accuracy: 0.001; so far: 8 of 16 joints stop`, retry: ["duration=12", "physics.accuracy=0.001"] }, `${lacking}.`, " The torque of joint m1/active is off. So far: 8 of 16 joints stop."],
+  ["impossible", { why: impossible }, "Body 'a' of link (0.1 kg) has a moment of inertia of 1 kg m^2, as much as a ring of radius 3.2 m.", " But the body's extent is 0.12 m. Give values that are physically possible."],
+  ["too close", { why: "joint m6/active may be at its limit", reason_code: "too close" }, "The value of the check “Current suffices” is too close to its limit.", " Joint m6/active may be at its limit."],
+]) {
+  const file = changed(pages.current, { verdict: "not judged", reason_check: "current", ...verdict });
+  on(`not judged, ${name}: a short sentence states what is missing, and a command supplies it if one is known`, file, flat, async (page) => {
+    assert.equal(await page.textContent("#said"), "Not judged");
+    const place = `${resolve(file).replace(/report.html$/, "")}scenario.resolved.yaml`, command = verdict.retry ? [`gaitlab run ${place} ${verdict.retry.map((one) => `--set ${one}`).join(" ")}`] : [];
+    assert.ok(first.split(" ").length <= 25);
+    assert.deepEqual(await page.locator("#why code").allTextContents(), command);
+    assert.equal(await page.textContent("#why"), `${first}${command.map((one) => ` Judge by ${one}`).join("")}${rest}`);
+  });
+}
+
+on("open: a short sentence states what is missing", pages.open, flat, async (page) => assert.equal(await page.textContent("#why"), "Nothing drives the joints."));
+
 // The joint of the row with the largest share of the time at a limit, by the rows that are drawn.
 on("infeasible: the joint that is longest at a limit is that of the rows, too", pages.infeasible, flat, async (page, meta) => {
   const shares = await page.evaluate(() => {
@@ -588,7 +608,7 @@ on("old: what rows alone lack is said, and nothing is made up", pages.old, flat,
   assert.ok(meta.missing.length > 0);
   assert.deepEqual(await page.$$eval("#missing li", (all) => all.map((l) => l.textContent.toLowerCase().replace(/[.]$/, ""))), meta.missing.map((m) => m.toLowerCase()));
   assert.ok(await page.isVisible("#motion"));
-  assert.match(await page.textContent("#why"), /^Only the rows of the trace are left, which miss the peaks between them/);
+  assert.equal(await page.textContent("#why"), "Only the rows of the trace are left, which miss the peaks between them. Judge by gaitlab rerun FOLDER");
   for (const id of ["voltage", "fall", "dock_tension"]) assert.equal(await page.textContent(`[data-check="${id}"] .value`), "not judged");
 });
 

@@ -5,5 +5,8 @@
 export function folder(): string {
   const [, path] = /^(.*)\/(?:report|compare)\.html$/.exec(decodeURIComponent(location.pathname)) ?? [];
   if (location.protocol !== "file:" || !path) return "FOLDER";
-  return /^[\w./+-]+$/.test(path) ? path : `'${path.replaceAll("'", "'\\''")}'`;
+  return word(path);
 }
+
+/** Word of a command, quoted for a shell if necessary. */
+export const word = (text: string): string => (/^[\w./+=-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`);

@@ -135,6 +135,8 @@ export interface Check {
 export interface Verdict {
   verdict: "feasible" | "infeasible" | "failed" | "not judged";
   reason: string; // reason of `not judged`
+  reason_code?: string;
+  retry?: string[]; // settings, as for --set, of a run that is expected to have a verdict
   reason_check?: string; // id of the check that it names: too close, failing so far, or not judged
   events?: { time: number; check: string; part: string | null }[]; // failed checks by the time at which they first fail
   failures: string[]; // ids of the failed checks: the one that decides, those of group `run`, then by margin

@@ -86,7 +86,7 @@ function cards(own: HTMLElement, desk: Desk, { labels }: Overlay): void {
   [own, second].forEach((host, n) => {
     const run = desk.runs[n];
     const { meta } = run.recording;
-    const made = judgement(run);
+    const made = judgement(run, n === 0);
     const tag = make(`span.tag-${n ? "second" : "own"}`, labels[n]);
     host.removeAttribute("aria-labelledby");
     host.setAttribute("aria-label", `${labels[n]}: ${made.said}`); // both may have the same verdict
@@ -101,7 +101,7 @@ function card(host: HTMLElement, run: Run, { mood, said, why, facts }: Judgement
   host.dataset.mood = mood;
   part("badge").append(icon(badges[mood], 24));
   part("said").textContent = said;
-  part("reason").textContent = why.join(" ");
+  part("reason").append(...why.flatMap((one, k) => (k ? [" ", one] : [one])));
   events(part("events"), run);
   part("aside").append(...beside.flatMap((one) => [one, " "]));
   part("facts").dataset.count = String(facts.length);

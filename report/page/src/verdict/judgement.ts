@@ -2,9 +2,9 @@
 import { make } from "../dom";
 import { happened } from "./events";
 import { built, hardest, shortfall, walked, type Fact } from "./facts";
-import { folder } from "../data/folder";
+import { folder, word } from "../data/folder";
 import type { Check, Meta } from "../data/format";
-import { capital, inSentence, percent, plural, quantity, sentence } from "../data/numbers";
+import { capital, inSentence, percent, plural, quantity, sentence, sentences } from "../data/numbers";
 import type { Run } from "../panel";
 import { jointAt, moment } from "../data/places";
 
@@ -13,23 +13,29 @@ export type Mood = "good" | "bad" | "open" | "plan";
 export interface Judgement {
   mood: Mood;
   said: string;
-  why: string[];
+  why: (string | Node)[];
   facts: Fact[];
 }
 
 const few = 2; // largest number of further failed checks in the sentence; the table of checks contains all
 
-export function judgement(run: Run): Judgement {
+/** Command to copy. A line does not break within its `start`. */
+const command = (start: string, ...words: string[]): HTMLElement =>
+  make("code", make("span.whole", start), ...words.map((one) => ` ${one}`));
+
+/** Judgement of a run. `own` is true for the run whose folder contains the page. */
+export function judgement(run: Run, own = true): Judgement {
   const { draws, unstable } = run.recording.meta.verdict ?? {};
   // All other findings follow from an unstable controller, and are therefore left out.
-  const judged = unstable ? { ...ofRun(run), why: [sentence(unstable)], facts: [] } : ofRun(run);
+  const found = ofRun(run, own);
+  const judged = unstable ? { ...found, why: [sentence(unstable)], facts: [] } : found;
   if (!draws) return judged;
   const why = [...judged.why, sentence(draws.text)];
   if (judged.mood !== "good" || draws.feasible === draws.count) return { ...judged, why };
   return { ...judged, mood: "open", said: `Feasible with ${draws.feasible} of ${draws.count} seeds`, why };
 }
 
-function ofRun(run: Run): Judgement {
+function ofRun(run: Run, own: boolean): Judgement {
   const { outcome, verdict } = run.recording.meta;
   if (outcome === "not run") return planned(run);
   switch (verdict.verdict) {
@@ -38,7 +44,7 @@ function ofRun(run: Run): Judgement {
     case "infeasible":
       return infeasible(run);
     case "not judged":
-      return unjudged(run);
+      return unjudged(run, own ? folder() : "FOLDER");
     case "feasible":
       return feasible(run);
   }
@@ -75,14 +81,30 @@ function infeasible(run: Run): Judgement {
   };
 }
 
-function unjudged(run: Run): Judgement {
+/** Judgement that begins with the missing evidence, and the command that supplies it if one is known. */
+function unjudged(run: Run, place: string): Judgement {
   const { meta } = run.recording;
-  const { why, reason, reason_check } = meta.verdict;
+  const { why, reason, reason_check, reason_code, retry = [], checks } = meta.verdict;
+  const [lacks, found] = (why || reason).split("; so far: ");
+  const close = checks.find((c) => reason_code === "too close" && c.id === reason_check);
+  const sets = retry.flatMap((one) => ["--set", word(one)]);
+  const again = retry.length
+    ? command("gaitlab run", `${place}/scenario.resolved.yaml`, ...sets)
+    : reason_code === "rows alone" && command("gaitlab rerun", place);
+  // The command replaces its advice.
+  const told = sentences(lacks).filter((one) => !again || !/^(Take|Gaitlab) /.test(one));
   const failed = failures(meta);
   return {
     mood: "open",
     said: "Not judged",
-    why: [sentence(why || reason), ...(failed.some((c) => c.id === reason_check) ? [] : others(meta, failed))],
+    why: [
+      ...(close ? [`The value of the check “${close.title}” is too close to its limit.`] : []),
+      ...told.slice(0, close ? 0 : 1),
+      ...(again ? ["Judge by", again] : []),
+      ...told.slice(close ? 0 : 1),
+      ...(found ? [`So far: ${sentence(found)}`] : []),
+      ...(failed.some((c) => c.id === reason_check) ? [] : others(meta, failed)),
+    ],
     facts: walked(run),
   };
 }
@@ -159,7 +181,7 @@ export function aside(meta: Meta, own = true): (string | Node)[] {
     ...(limited && !gait.some((c) => c.missing)
       ? [
           "The missing torque or current was not computed. To compute it:",
-          make("code", make("span.whole", "gaitlab report --demand"), ` ${own ? folder() : "FOLDER"}`),
+          command("gaitlab report --demand", own ? folder() : "FOLDER"),
         ]
       : []),
     ...(doubtful.length ? [`Doubtful: ${briefly(doubtful)}.`] : []),
