@@ -7,7 +7,7 @@ import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
 import { after, test } from "node:test";
-import { close, columnsOf, frames, metaOf, modules, open } from "./browser.mjs";
+import { close, columnsOf, frames, metaOf, modules, open, pageTexts } from "./browser.mjs";
 
 const files = Object.fromEntries(process.argv.slice(2).map((a) => a.split(/=(.*)/s)));
 const { trace, ...pages } = files;
@@ -216,6 +216,19 @@ for (const name of ["feasible", "infeasible"]) {
     const [pixel, height] = await page.evaluate(() => [window.gaitlab.page.stage.view.gauges.colours.pixel.value, document.getElementById("stage").clientHeight]);
     near(pixel * height, 2 * Math.tan(Math.PI * 16 / 180), 1e-3, `a pixel of ${height}`);
     assert.equal(await page.getAttribute("html", "data-theme"), "light");
+  });
+}
+
+for (const name of ["infeasible", "current", "fall"]) {
+  on(`${name}: on paper a failed check is on one page, and no page is empty`, pages[name], flat, async (page, meta) => {
+    const texts = pageTexts(await page.pdf({ format: "A4", printBackground: true })), bare = (text) => text.normalize("NFKC").replace(/\s/g, "");
+    texts.forEach((text, k) => assert.ok(text.length > 10, `page ${k + 1} of ${texts.length}`));
+    const found = await page.$$eval("#checks tr.is-fail:not(.detail)", (all) => all.map((row) => [row.querySelector(".what").textContent, [...row.nextElementSibling.querySelectorAll(".why, .short, .try")].map((p) => p.textContent)]));
+    assert.equal(found.length, meta.verdict.counts.fail);
+    for (const [title, lines] of found) {
+      assert.ok(lines.length > 0);
+      assert.equal(texts.filter((text) => [title, ...lines].every((one) => text.includes(bare(one)))).length, 1, title);
+    }
   });
 }
 
@@ -667,6 +680,17 @@ for (const name of ["pair", "robots", "ball"]) {
     assert.equal((await state(page)).playing, true);
   });
 }
+
+on("pair: runs of one scenario have the names of their folders", pages.pair, flat, async (page, meta) => {
+  assert.equal(meta.name, meta.overlay.run.name);
+  assert.deepEqual(meta.overlay.folders, ["brisk", "slow"]);
+  assert.equal(await page.textContent("#name"), `${meta.name}: brisk and slow`);
+  assert.equal(await page.title(), `${meta.name}: brisk and slow: gaitlab report`);
+  const cards = await page.$$eval(".verdict .whose", (all) => all.map((one) => one.textContent));
+  [["A", "brisk"], ["B", "slow"]].forEach(([label, folder], n) => assert.ok(cards[n].startsWith(`${label}${folder} ${meta.name}`), cards[n]));
+  assert.match(await page.textContent("#foot-text"), /gaitlab rerun brisk$/, "the page has another name, and knows its folder");
+  assert.doesNotMatch(await page.innerText("body"), /FOLDER/);
+});
 
 on("pair: the second run by the clock of the first", pages.pair, {}, async (page, meta) => {
   const found = await page.evaluate(() => {

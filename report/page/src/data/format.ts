@@ -212,6 +212,7 @@ export interface Stray {
 /** Second run on the page, and its differences from the first run (report/page/page_overlay.h). */
 export interface Overlay {
   labels: [own: string, second: string];
+  folders: [own: string, second: string]; // names of the run folders; "" for a golden
   differs: string[]; // settings that differ
   strayed: string | null; // reason why the run failed against its golden; null on a page that compares two runs
   strays: Stray[];

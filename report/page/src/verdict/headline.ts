@@ -3,6 +3,7 @@ import { about } from "./about";
 import { element, icon, make } from "../dom";
 import { events } from "./events";
 import type { Fact } from "./facts";
+import { folder, word } from "../data/folder";
 import type { Overlay } from "../data/format";
 import type { Ghost } from "../data/ghost";
 import { aside, judgement, type Judgement, type Mood } from "./judgement";
@@ -77,7 +78,7 @@ function settings({ differs, labels: [a, b], strayed }: Overlay): HTMLElement | 
 }
 
 /** A card for each of two runs, side by side. */
-function cards(own: HTMLElement, desk: Desk, { labels }: Overlay): void {
+function cards(own: HTMLElement, desk: Desk, { labels, folders }: Overlay): void {
   const second = own.cloneNode(true) as HTMLElement;
   second.removeAttribute("id");
   for (const one of second.querySelectorAll("[id]")) one.id = `${one.id}-second`;
@@ -86,12 +87,15 @@ function cards(own: HTMLElement, desk: Desk, { labels }: Overlay): void {
   [own, second].forEach((host, n) => {
     const run = desk.runs[n];
     const { meta } = run.recording;
-    const made = judgement(run, n === 0);
+    const place = n ? word(folders[n]) : folder(meta);
+    const made = judgement(run, place);
     const tag = make(`span.tag-${n ? "second" : "own"}`, labels[n]);
     host.removeAttribute("aria-labelledby");
     host.setAttribute("aria-label", `${labels[n]}: ${made.said}`); // both may have the same verdict
-    card(host, run, { ...made, facts: made.facts.slice(0, 4) }, aside(meta, n === 0));
-    host.querySelector(".words")!.prepend(make("p.whose", tag, make("b", meta.name), ` ${about(meta)}`));
+    card(host, run, { ...made, facts: made.facts.slice(0, 4) }, aside(meta, place));
+    host
+      .querySelector(".words")!
+      .prepend(make("p.whose", tag, make("b", folders[n]), ` ${meta.name} · ${about(meta)}`));
   });
 }
 

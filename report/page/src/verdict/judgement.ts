@@ -23,11 +23,11 @@ const few = 2; // largest number of further failed checks in the sentence; the t
 const command = (start: string, ...words: string[]): HTMLElement =>
   make("code", make("span.whole", start), ...words.map((one) => ` ${one}`));
 
-/** Judgement of a run. `own` is true for the run whose folder contains the page. */
-export function judgement(run: Run, own = true): Judgement {
+/** Judgement of a run in a folder. */
+export function judgement(run: Run, place = folder(run.recording.meta)): Judgement {
   const { draws, unstable } = run.recording.meta.verdict ?? {};
   // All other findings follow from an unstable controller, and are therefore left out.
-  const found = ofRun(run, own);
+  const found = ofRun(run, place);
   const judged = unstable ? { ...found, why: [sentence(unstable)], facts: [] } : found;
   if (!draws) return judged;
   const why = [...judged.why, sentence(draws.text)];
@@ -35,7 +35,7 @@ export function judgement(run: Run, own = true): Judgement {
   return { ...judged, mood: "open", said: `Feasible with ${draws.feasible} of ${draws.count} seeds`, why };
 }
 
-function ofRun(run: Run, own: boolean): Judgement {
+function ofRun(run: Run, place: string): Judgement {
   const { outcome, verdict } = run.recording.meta;
   if (outcome === "not run") return planned(run);
   switch (verdict.verdict) {
@@ -44,7 +44,7 @@ function ofRun(run: Run, own: boolean): Judgement {
     case "infeasible":
       return infeasible(run);
     case "not judged":
-      return unjudged(run, own ? folder() : "FOLDER");
+      return unjudged(run, place);
     case "feasible":
       return feasible(run);
   }
@@ -162,7 +162,7 @@ function others(meta: Meta, all: Check[]): string[] {
 const briefly = (found: Check[]): string => found.map((c) => c.text.split("; ")[0].replace(/[.]$/, "")).join("; ");
 
 /** Limitations of the verdict: warnings, doubtful numbers, checks that were not judged. None for an unstable run. */
-export function aside(meta: Meta, own = true): (string | Node)[] {
+export function aside(meta: Meta, place = folder(meta)): (string | Node)[] {
   if (meta.outcome === "not run" || meta.verdict.unstable) return [];
   const { verdict, counts, chosen_motors, chosen_docks, demand } = meta.verdict;
   const of = (trust: boolean, ...status: Check["status"][]) =>
@@ -179,10 +179,7 @@ export function aside(meta: Meta, own = true): (string | Node)[] {
     ...(chosen_motors ? ["Motor data are chosen, not the manufacturer's."] : []),
     ...(chosen_docks ? ["Strengths of the docks are chosen."] : []),
     ...(limited && !gait.some((c) => c.missing)
-      ? [
-          "The missing torque or current was not computed. To compute it:",
-          command("gaitlab report --demand", own ? folder() : "FOLDER"),
-        ]
+      ? ["The missing torque or current was not computed. To compute it:", command("gaitlab report --demand", place)]
       : []),
     ...(doubtful.length ? [`Doubtful: ${briefly(doubtful)}.`] : []),
     ...(demand?.doubt ? [sentence(demand.doubt)] : []),
