@@ -11,6 +11,7 @@ import { everyPeriod, firstMoment, partName } from "../data/places";
 const words: Record<string, string> = {
   upright: "turns over",
   stall: "stalls",
+  in_ground: "in the ground",
   collision: "in another body",
   brownout: "supply too low",
   battery: "supply current",
