@@ -150,6 +150,9 @@ std::string shown(const Json& value) {
   return value.is_string() ? value.get<std::string>() : value.dump();
 }
 
+/// Magnitude below which numbers of a summary, in SI units, are rounding errors. Chosen.
+constexpr double kNoise = 1e-9;
+
 // Text of the change from A to B, relative to A if both are numbers.
 std::string change(const Json& a, const Json& b) {
   if (a == b) return "equal";
@@ -157,8 +160,8 @@ std::string change(const Json& a, const Json& b) {
   const double from = a.get<double>();
   const double by = b.get<double>() - from;
   // A percentage of a number near zero would be meaningless: the difference is printed instead.
-  return std::abs(from) < 0.01 * std::abs(by) || from == 0 ? fmt::format("{:+.3g}", by)
-                                                           : fmt::format("{:+.3g} %", 100 * by / std::abs(from));
+  return std::abs(from) < std::max(0.01 * std::abs(by), kNoise) ? fmt::format("{:+.3g}", by)
+                                                                : fmt::format("{:+.3g} %", 100 * by / std::abs(from));
 }
 
 void print_summaries(const Json& a, const Json& b) {

@@ -75,6 +75,15 @@ int report_one(const ReportArguments& arguments) {
   return exit_code(run.verdict, arguments.shown);
 }
 
+/// Names of two run folders; with the folders around them if the names are equal. A page does not contain whole paths.
+std::array<std::string, 2> folder_names(const std::vector<std::string>& runs) {
+  const auto path = [&](std::size_t k) { return fs::weakly_canonical(trace_file(runs[k]).parent_path()); };
+  const fs::path a = path(0), b = path(1);
+  if (a.filename() != b.filename()) return {a.filename().string(), b.filename().string()};
+  const auto longer = [](const fs::path& one) { return (one.parent_path().filename() / one.filename()).string(); };
+  return {longer(a), longer(b)};
+}
+
 int report_two(const ReportArguments& arguments) {
   const fs::path own = trace_file(arguments.runs[0]).parent_path() / kPairFile;
   const std::string file = arguments.page.value_or(own.string());
@@ -83,6 +92,7 @@ int report_two(const ReportArguments& arguments) {
   const JudgedRun a = judged_run(arguments.runs[0], catalogs[0], {}, arguments.shown);
   const JudgedRun b = judged_run(arguments.runs[1], catalogs[1], {}, arguments.shown);
   report::PageOverlay overlay;
+  overlay.folders = folder_names(arguments.runs);
   overlay.differs = changed_settings(resolved(a.read.scenario), resolved(b.read.scenario), 6);
   constexpr std::size_t kEach = report::kMostData / 2;
   write_file(file, report::page(report::overlaid(a.page_data(kEach), b.page_data(kEach), overlay)), existing);

@@ -21,7 +21,8 @@ const table = {
   layout: ["dom", "panel", "plots", "verdict"],
   page: ["address", "colour", "data", "dom", "layout", "panel", "scene", "transport", "verdict"],
   controls: ["colour", "dom", "page", "scene"],
-  watch: ["dom", "page", "scene"],
+  kept: ["colour", "data", "page", "scene"],
+  watch: ["dom", "kept", "page"],
   main: ["colour", "controls", "data", "dom", "page", "watch"],
 };
 

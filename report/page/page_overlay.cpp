@@ -26,6 +26,7 @@ PageData overlaid(const PageData& a, const PageData& b, const PageOverlay& overl
   }
   Json meta = Json::parse(a.meta);
   meta["overlay"] = {{"labels", overlay.labels},
+                     {"folders", overlay.folders},
                      {"differs", overlay.differs},
                      {"strayed", overlay.strayed.empty() ? Json() : Json(overlay.strayed)},
                      {"strays", std::move(strays)},

@@ -23,10 +23,12 @@ struct Stray {
 /// Texts of a page of two runs.
 struct PageOverlay {
   std::array<std::string, 2> labels{"A", "B"};  ///< short names of the two runs, in the order of the page
-  std::vector<std::string> differs = {};        ///< one sentence for each setting that is different in the second run
-  std::string strayed = {};                     ///< sentence on a run that left the bands of its golden; empty on a page that
-                                                ///< compares two runs
-  std::vector<Stray> strays = {};               ///< signals outside their bands, in the order in which they leave them
+  /// Names of the run folders, which distinguish runs of one scenario; empty if a run has no folder.
+  std::array<std::string, 2> folders = {};
+  std::vector<std::string> differs = {};  ///< one sentence for each setting that is different in the second run
+  std::string strayed = {};               ///< sentence on a run that left the bands of its golden; empty on a page that
+                                          ///< compares two runs
+  std::vector<Stray> strays = {};         ///< signals outside their bands, in the order in which they leave them
 };
 
 /// Page of run `a` with run `b` drawn over it (docs/report.md, `overlay`). Throws nlohmann::json::exception if the data were

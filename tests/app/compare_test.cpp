@@ -178,6 +178,15 @@ TEST_F(CompareCommand, UnreadableInput) {
   EXPECT_EQ(compare("a").code, 2);
 }
 
+/// A rounding error has no percentage.
+TEST_F(CompareCommand, NumbersBelowTheNoise) {
+  make_run("a", "t,x\n0,1\n", R"({"distance": 0.5, "displacement": [1e-6, -2.09e-18]})");
+  make_run("b", "t,x\n0,1\n", R"({"distance": 0.5, "displacement": [2e-6, -2.69e-18]})");
+  const std::string out = compare("a b").out;
+  EXPECT_TRUE(contains(out, "-2.69e-18  -6e-19\n")) << out;
+  EXPECT_TRUE(contains(out, "2e-06  +100 %\n")) << out;
+}
+
 TEST_F(CompareCommand, SummaryOfOtherTypesIsShownAsItIs) {
   make_run("a", "t,x\n0,1\n", R"({"distance": "far", "displacement": 3, "per_joint": [1, {"torque": 2}], "stability": null})");
   const Result result = compare("a a");

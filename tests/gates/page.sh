@@ -114,7 +114,7 @@ fi
 ok "the page in a browser: $(grep -E '^# pass|^ℹ pass' "$work/log")"
 
 # A page of `gaitlab watch` follows the file.
-cp -- "$root/scenarios/pendulum.yaml" watched.yaml
+sed 's/^duration: 20 /duration: 2 /' "$root/scenarios/caterpillar.yaml" >watched.yaml
 "$program" watch watched.yaml --quiet --out watched 2>"$work/log" &
 watcher=$!
 trap 'kill "$watcher" 2>/dev/null || true; rm -rf -- "$work"' EXIT
@@ -123,5 +123,5 @@ until [[ -s watched/report.html ]]; do
   sleep 0.1
 done
 node "$root/tests/page/watch_test.mjs" watched/report.html watched.yaml >"$work/log" 2>&1 || { show_log; fail "a watched page in a browser"; }
-ok "a watched page follows its scenario, with camera, time and joint"
+ok "a watched page follows its scenario, with all that a reader has set"
 verdict

@@ -2,6 +2,7 @@
 import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { join, resolve } from "node:path";
+import { inflateSync } from "node:zlib";
 
 /** The modules of report/page/package-lock.json, which the gate has installed (tests/node.sh). */
 export const modules = createRequire(join(resolve(process.env.NODE_MODULES), "of.mjs"));
@@ -50,4 +51,34 @@ export function metaOf(file) {
 export function columnsOf(file) {
   const [head, ...rows] = readFileSync(file, "utf8").trim().split("\n").map((line) => line.split(","));
   return new Map(head.map((name, i) => [name.replaceAll('"', ""), rows.map((r) => Number(r[i]))]));
+}
+
+/** Text of each page of a PDF that Chromium has printed, without blanks: glyphs by the tables of their fonts. */
+export function pageTexts(pdf) {
+  const objects = new Map([...pdf.toString("latin1").matchAll(/(?:^|\n)(\d+) 0 obj\n([^]*?)\nendobj/g)].map(([, n, body]) => [n, body]));
+  const stream = (n) => {
+    const body = objects.get(n), from = body.indexOf("stream\n") + 7, data = Buffer.from(body.slice(from, body.lastIndexOf("\nendstream")), "latin1");
+    return (/FlateDecode/.test(body.slice(0, from)) ? inflateSync(data) : data).toString("latin1");
+  };
+  const hex = (digits, size = 4) => digits.match(new RegExp(`.{${size}}`, "g")).map((d) => parseInt(d, 16));
+  const glyphs = (font) => {
+    const map = new Map(), table = /\/ToUnicode (\d+)/.exec(objects.get(font));
+    for (const [, kind, list] of table ? stream(table[1]).matchAll(/beginbf(char|range)([^]*?)endbf/g) : []) {
+      for (const [, from, to, code] of list.matchAll(kind === "char" ? /<(\w+)>( )<(\w+)>/g : /<(\w+)> <(\w+)> <(\w+)>/g)) {
+        map.digits = from.length;
+        for (let g = parseInt(from, 16), k = 0; k === 0 || g + k <= parseInt(to, 16); k++) map.set(g + k, String.fromCharCode(...hex(code).map((c) => c + k)));
+      }
+    }
+    return map;
+  };
+  const bytes = (literal) => literal.replace(/\\(\d{3}|.)/g, (_, c) => (c.length > 1 ? String.fromCharCode(parseInt(c, 8)) : { n: "\n", r: "\r", t: "\t", b: "\b", f: "\f" }[c] ?? c));
+  return [...objects.values()].filter((one) => /\/Type \/Page\b/.test(one)).map((page) => {
+    const fonts = new Map([...page.matchAll(/\/(F\d+) (\d+) 0 R/g)].map(([, name, n]) => [name, glyphs(n)]));
+    let font, text = "";
+    for (const [, name, digits, literal] of stream(/\/Contents (\d+)/.exec(page)[1]).matchAll(/\/(F\d+) [\d.]+ Tf|<(\w+)>|\(((?:\\[^]|[^\\)])*)\)/g)) {
+      if (name) font = fonts.get(name);
+      else for (const g of hex(digits ?? Buffer.from(bytes(literal), "latin1").toString("hex"), font?.digits)) text += font?.get(g) ?? "";
+    }
+    return text.normalize("NFKC").replace(/\s/g, "");
+  });
 }

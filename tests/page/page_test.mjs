@@ -7,7 +7,7 @@ import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
 import { after, test } from "node:test";
-import { close, columnsOf, frames, metaOf, modules, open } from "./browser.mjs";
+import { close, columnsOf, frames, metaOf, modules, open, pageTexts } from "./browser.mjs";
 
 const files = Object.fromEntries(process.argv.slice(2).map((a) => a.split(/=(.*)/s)));
 const { trace, ...pages } = files;
@@ -219,6 +219,19 @@ for (const name of ["feasible", "infeasible"]) {
   });
 }
 
+for (const name of ["infeasible", "current", "fall"]) {
+  on(`${name}: on paper a failed check is on one page, and no page is empty`, pages[name], flat, async (page, meta) => {
+    const texts = pageTexts(await page.pdf({ format: "A4", printBackground: true })), bare = (text) => text.normalize("NFKC").replace(/\s/g, "");
+    texts.forEach((text, k) => assert.ok(text.length > 10, `page ${k + 1} of ${texts.length}`));
+    const found = await page.$$eval("#checks tr.is-fail:not(.detail)", (all) => all.map((row) => [row.querySelector(".what").textContent, [...row.nextElementSibling.querySelectorAll(".why, .short, .try")].map((p) => p.textContent)]));
+    assert.equal(found.length, meta.verdict.counts.fail);
+    for (const [title, lines] of found) {
+      assert.ok(lines.length > 0);
+      assert.equal(texts.filter((text) => [title, ...lines].every((one) => text.includes(bare(one)))).length, 1, title);
+    }
+  });
+}
+
 on("feasible: a link leads to joint, time and theme", pages.feasible, { ...flat, link: "joint=m3/passive&t=1.25&theme=dark" }, async (page, meta) => {
   const { joint, t, playing } = await state(page);
   assert.deepEqual([meta.joints[joint].name, t, playing], ["m3/passive", 1.25, false]);
@@ -236,10 +249,9 @@ on("feasible: opens paused at what is tightest", pages.feasible, { ...flat, link
   assert.ok(facts.Tightest.includes(check.worst === null ? check.title : nameOf(meta, check)), `${facts.Tightest}; ${JSON.stringify(check)}`);
 });
 
-on("infeasible: what was first over the limit, what is worst, when, how much is missing", pages.infeasible, flat, async (page, meta) => {
+on("infeasible: what is worst, when, how much is missing", pages.infeasible, flat, async (page, meta) => {
   const facts = await factsOf(page), check = failing(meta), { longest, why, demand } = meta.verdict;
   assert.ok((await page.textContent("#why")).toLowerCase().startsWith(why.toLowerCase().replace(/[.]$/, "")), "the terminal's sentence");
-  assert.ok(facts["First over the limit"].startsWith(check.first_part) && Math.abs(/at ([\d.]+)/.exec(facts["First over the limit"])[1] - check.first) < 6e-3, `${facts["First over the limit"]}; ${check.first}`);
   assert.ok(facts.Worst.startsWith(check.worst));
   const share = (joint) => joint.voltage + joint.current;
   assert.ok(share(longest) > 0 && facts["Longest at a limit"].startsWith(longest.joint));
@@ -252,13 +264,79 @@ on("infeasible: what was first over the limit, what is worst, when, how much is 
   assert.ok(advice.startsWith("Try: ") && advice.includes((check.remedy || check.advice).replace(/[.]$/, "")));
 });
 
+for (const name of ["infeasible", "current", "fall"]) {
+  on(`${name}: the failed checks are one line in the order of time, and each goes to its time and part`, pages[name], {}, async (page, meta) => {
+    const { verdict: { events, checks } } = meta, checkOf = (e) => checks.find((c) => c.id === e.check), called = (e) => e.part && nameOf(meta, { ...checkOf(e), worst: e.part });
+    assert.ok(events.length > 0);
+    const entries = page.locator("#happened .events > li:not(.more)"), texts = await entries.allTextContents();
+    assert.deepEqual(await page.locator("#events > li:not(.more)").allTextContents(), texts, "the card has the same line");
+    assert.equal(texts.length, events.length);
+    events.forEach((e, k) => assert.ok(texts[k].startsWith(`${e.time.toFixed(2)} s ${e.part ? `${called(e)} ` : ""}`), texts[k]));
+    // Every period: rows at that limit, period by period.
+    const period = meta.cycle?.period ?? 1 / meta.frequency;
+    for (const [k, e] of events.entries()) {
+      const code = ["voltage", "current"].indexOf(e.check) + 1, joint = meta.joints.findIndex((j) => j.name === e.part), count = Math.floor((meta.duration - e.time) / period + 1e-6);
+      const met = code > 0 && await page.evaluate(([j, limit, from, T]) => {
+        const { recording } = window.gaitlab.page, at = recording.channel(`joint.${j}.saturation`);
+        return [...new Set([...recording.times].flatMap((t, i) => (at[i] === limit && t >= from ? [Math.floor((t - from) / T)] : [])))];
+      }, [joint, code, e.time, period]);
+      assert.equal(texts[k].includes("every period"), !!met && count > 1 && Array.from({ length: count }, (_, n) => n).every((n) => met.includes(n)), texts[k]);
+    }
+    // In a narrow window not all of them fit; a button shows the others.
+    await page.setViewportSize({ width: 320, height: 844 });
+    const more = page.locator("#happened .more button"), hidden = () => entries.evaluateAll((all) => all.filter((li) => li.hidden).length);
+    await page.waitForFunction((all) => {
+      const list = document.querySelector("#happened .events"), shown = [...list.children].filter((li) => !li.hidden);
+      return window.innerWidth === 320 && (all < 4 || shown.length <= all) && shown.at(-1).getBoundingClientRect().bottom <= list.getBoundingClientRect().bottom + 1;
+    }, events.length);
+    if (await hidden()) {
+      assert.equal(await more.textContent(), `and ${await hidden()} more`);
+      await more.press("Enter");
+      assert.ok(await page.evaluate(() => document.activeElement.closest("#happened li")), "the focus is on the first of the others");
+    }
+    assert.equal(await hidden(), 0);
+    for (const [k, e] of events.entries()) {
+      await entries.nth(k).locator("button").press("Enter");
+      const { t } = await state(page), { part } = checkOf(e);
+      assert.ok(t > e.time - meta.period && t < e.time + 0.02 + meta.period, `${t}, ${e.time}`);
+      // A joint has numbers after its name; the robot as a whole has no name.
+      await page.waitForFunction(([whole, what]) => {
+        const tag = document.getElementById("tag");
+        return whole === null ? tag.hidden : !tag.hidden && tag.querySelector("b").textContent === whole && (tag.textContent !== whole) === what;
+      }, [called(e), part === "joint"]);
+    }
+    await page.keyboard.press("]");
+    await page.waitForFunction(() => /N m/.test(document.getElementById("tag").textContent) && !document.getElementById("tag").hidden);
+  });
+}
+
 const unstable = "the controller is unstable from 0.03 s on";
 on("an unstable controller is the only finding of the card, and its checks have no advice", changed(pages.infeasible, { unstable, why: unstable }), flat, async (page, meta) => {
   assert.ok(meta.verdict.counts.fail > 1 && meta.verdict.chosen_motors, "there is more to say of a stable run");
-  const texts = await Promise.all(["#said", "#why", "#aside", "#facts"].map((id) => page.textContent(id)));
-  assert.deepEqual(texts, ["Not feasible", "The controller is unstable from 0.03 s on.", "", ""]);
+  const texts = await Promise.all(["#said", "#why", "#events", "#happened", "#aside", "#facts"].map((id) => page.textContent(id)));
+  assert.deepEqual(texts, ["Not feasible", "The controller is unstable from 0.03 s on.", "", "", "", ""]);
   assert.equal(await page.locator("#checks .try").count(), 0, "no advice such as larger gains");
 });
+
+// Reasons as of report/verdict: a run that is too short, a number that is impossible, a value within its error of the limit.
+const lacking = "2 s contain only 0.5 of the 3 periods of 4 s that a gait needs";
+const impossible = "body 'a' of link (0.1 kg) has a moment of inertia of 1 kg m^2, as much as a ring of radius 3.2 m, but the body's extent is 0.12 m; give values that are physically possible";
+for (const [name, verdict, first, rest] of [
+  ["too short", { why: `${lacking}; take duration: 12; and the torque of joint m1/active is off; take physics.accuracy: 0.001; so far: 8 of 16 joints stop`, retry: ["duration=12", "physics.accuracy=0.001"] }, `${lacking}.`, " The torque of joint m1/active is off. So far: 8 of 16 joints stop."],
+  ["impossible", { why: impossible }, "Body 'a' of link (0.1 kg) has a moment of inertia of 1 kg m^2, as much as a ring of radius 3.2 m.", " But the body's extent is 0.12 m. Give values that are physically possible."],
+  ["too close", { why: "joint m6/active may be at its limit", reason_code: "too close" }, "The value of the check “Current suffices” is too close to its limit.", " Joint m6/active may be at its limit."],
+]) {
+  const file = changed(pages.current, { verdict: "not judged", reason_check: "current", ...verdict });
+  on(`not judged, ${name}: a short sentence states what is missing, and a command supplies it if one is known`, file, flat, async (page) => {
+    assert.equal(await page.textContent("#said"), "Not judged");
+    const place = `${resolve(file).replace(/report.html$/, "")}scenario.resolved.yaml`, command = verdict.retry ? [`gaitlab run ${place} ${verdict.retry.map((one) => `--set ${one}`).join(" ")}`] : [];
+    assert.ok(first.split(" ").length <= 25);
+    assert.deepEqual(await page.locator("#why code").allTextContents(), command);
+    assert.equal(await page.textContent("#why"), `${first}${command.map((one) => ` Judge by ${one}`).join("")}${rest}`);
+  });
+}
+
+on("open: a short sentence states what is missing", pages.open, flat, async (page) => assert.equal(await page.textContent("#why"), "Nothing drives the joints."));
 
 // The joint of the row with the largest share of the time at a limit, by the rows that are drawn.
 on("infeasible: the joint that is longest at a limit is that of the rows, too", pages.infeasible, flat, async (page, meta) => {
@@ -543,7 +621,7 @@ on("old: what rows alone lack is said, and nothing is made up", pages.old, flat,
   assert.ok(meta.missing.length > 0);
   assert.deepEqual(await page.$$eval("#missing li", (all) => all.map((l) => l.textContent.toLowerCase().replace(/[.]$/, ""))), meta.missing.map((m) => m.toLowerCase()));
   assert.ok(await page.isVisible("#motion"));
-  assert.match(await page.textContent("#why"), /^Only the rows of the trace are left, which miss the peaks between them/);
+  assert.equal(await page.textContent("#why"), "Only the rows of the trace are left, which miss the peaks between them. Judge by gaitlab rerun FOLDER");
   for (const id of ["voltage", "fall", "dock_tension"]) assert.equal(await page.textContent(`[data-check="${id}"] .value`), "not judged");
 });
 
@@ -556,7 +634,9 @@ on("csv: a run whose trace is text", pages.csv, flat, async (page, meta) => {
 for (const name of ["jointless", "built_ball"]) {
   on(`${name}: shows no joints`, pages[name], {}, async (page, meta) => {
     assert.equal(meta.joints.length, 0);
-    for (const id of ["#motion", "#heat", "#envelope", "#phase", "#tag"]) assert.equal(await page.isVisible(id), false, id);
+    for (const id of ["#motion", "#heat", "#envelope", "#phase"]) assert.equal(await page.isVisible(id), false, id);
+    // The tag names the body of the check that the page opens at, if there is one.
+    assert.equal(await page.isVisible("#tag") && await page.textContent("#tag"), name === "jointless" && meta.bodies[0].name);
     assert.ok(await page.isVisible("#view"));
     for (const key of ["[", "]", "j", "a"]) await page.keyboard.press(key);
     assert.equal((await state(page)).joint, -1);
@@ -600,6 +680,17 @@ for (const name of ["pair", "robots", "ball"]) {
     assert.equal((await state(page)).playing, true);
   });
 }
+
+on("pair: runs of one scenario have the names of their folders", pages.pair, flat, async (page, meta) => {
+  assert.equal(meta.name, meta.overlay.run.name);
+  assert.deepEqual(meta.overlay.folders, ["brisk", "slow"]);
+  assert.equal(await page.textContent("#name"), `${meta.name}: brisk and slow`);
+  assert.equal(await page.title(), `${meta.name}: brisk and slow: gaitlab report`);
+  const cards = await page.$$eval(".verdict .whose", (all) => all.map((one) => one.textContent));
+  [["A", "brisk"], ["B", "slow"]].forEach(([label, folder], n) => assert.ok(cards[n].startsWith(`${label}${folder} ${meta.name}`), cards[n]));
+  assert.match(await page.textContent("#foot-text"), /gaitlab rerun brisk$/, "the page has another name, and knows its folder");
+  assert.doesNotMatch(await page.innerText("body"), /FOLDER/);
+});
 
 on("pair: the second run by the clock of the first", pages.pair, {}, async (page, meta) => {
   const found = await page.evaluate(() => {

@@ -12,20 +12,30 @@ const renewed = (page, former) => page.waitForFunction(
 const { page, complaints } = await open(file, { link: "t=0.2" });
 const run = () => page.evaluate(() => document.documentElement.dataset.watch);
 const look = () => page.evaluate(() => ({
-  t: window.gaitlab.page.state.t, joint: window.gaitlab.page.state.joint, pose: window.gaitlab.page.stage.view.kept().flat(),
+  t: window.gaitlab.page.state.t, joint: window.gaitlab.page.state.joint, span: [...window.gaitlab.page.state.span], theme: document.documentElement.dataset.theme,
+  on: [...document.querySelectorAll('.tools [aria-pressed="true"]')].map((b) => b.id), heat: ["what", "order"].map((id) => document.getElementById(id).value),
+  open: [...document.querySelectorAll('#checks [aria-expanded="true"]')].map((b) => b.textContent),
+  pose: window.gaitlab.page.stage.view.kept().flat(),
 }));
 
-// The reader turns the camera and goes to another time.
+// The reader turns the camera, goes to another time, and changes everything else that can be changed.
+for (const id of ["#theme", "#tint", "#forces", "#axes", '[data-check="stops"] button']) await page.click(id);
+await page.selectOption("#what", "torque");
+await page.selectOption("#order", "load");
 await page.evaluate(() => {
-  window.gaitlab.page.stage.view.look("top");
-  window.gaitlab.page.goTo(0.75);
+  const { page: desk } = window.gaitlab;
+  desk.stage.view.look("top");
+  desk.choose(5);
+  desk.zoom([0.5, 1.25]);
+  desk.goTo(0.75);
 });
 const first = await run(), seen = await look();
 appendFileSync(scenario, "seed: 7\n");
 await renewed(page, first);
 const then = await look();
-assert.equal(then.t, 0.75);
-assert.equal(then.joint, seen.joint);
+assert.deepEqual(seen, { ...seen, t: 0.75, joint: 5, span: [0.5, 1.25], theme: "dark", heat: ["torque", "load"], open: ["Joints keep their ranges"] });
+assert.ok(seen.on.includes("tint") && seen.on.includes("axes") && !seen.on.includes("forces"), String(seen.on));
+assert.deepEqual({ ...then, pose: [] }, { ...seen, pose: [] });
 then.pose.forEach((x, k) => assert.ok(Math.abs(x - seen.pose[k]) < 1e-6, `pose ${then.pose} is not ${seen.pose}`));
 
 // An error is announced, and the page keeps the run before it.
@@ -33,6 +43,8 @@ const good = readFileSync(scenario, "utf8"), second = await run();
 writeFileSync(scenario, good.replace(/^duration:.*$/m, "duration: -1"));
 await page.waitForSelector(".watch-note:not([hidden])");
 assert.equal(await run(), second);
+await page.evaluate(() => scrollTo(0, document.body.scrollHeight));
+assert.equal((await page.locator(".watch-note").boundingBox()).y, 0, "the error stays in view");
 writeFileSync(scenario, `${good}\n`);
 await renewed(page, second);
 assert.equal(await page.locator(".watch-note").isVisible(), false);

@@ -9,21 +9,19 @@ export class Address {
   remember(desk: Desk): void {
     clearTimeout(this.waiting);
     if (this.link.has("paused") || !desk.recording.ran) return;
-    this.waiting = window.setTimeout(() => this.write(desk, null), 400);
+    this.waiting = window.setTimeout(() => write(desk), 400);
   }
+}
 
-  /** Writes joint and time into the address at once, with a state that the next page at this address finds. */
-  write({ recording, state }: Desk, kept: object | null): void {
-    clearTimeout(this.waiting);
-    const joint = recording.meta.joints[state.joint]?.name;
-    const parts = [
-      ...(joint ? [`joint=${encodeURIComponent(joint).replaceAll("%2F", "/")}`] : []),
-      `t=${+state.t.toFixed(3)}`,
-    ];
-    try {
-      history.replaceState(kept, "", `#${parts.join("&")}`);
-    } catch {
-      // A page that is embedded in another page may not change the address.
-    }
+function write({ recording, state }: Desk): void {
+  const joint = recording.meta.joints[state.joint]?.name;
+  const parts = [
+    ...(joint ? [`joint=${encodeURIComponent(joint).replaceAll("%2F", "/")}`] : []),
+    `t=${+state.t.toFixed(3)}`,
+  ];
+  try {
+    history.replaceState(null, "", `#${parts.join("&")}`);
+  } catch {
+    // A page that is embedded in another page may not change the address.
   }
 }

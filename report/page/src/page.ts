@@ -3,13 +3,13 @@ import { Address } from "./address";
 import { captions } from "./verdict/captions";
 import { inkOf, type Ink, type Theme } from "./colour";
 import { element } from "./dom";
-import type { Check } from "./data/format";
+import type { Check, Part } from "./data/format";
 import { Ghost } from "./data/ghost";
 import { arrange } from "./layout";
 import { Loads } from "./data/loads";
 import { opening, type Opening } from "./verdict/opening";
 import type { Desk, Panel, Run, State } from "./panel";
-import { dockAt } from "./data/places";
+import { jointAt } from "./data/places";
 import { Problems } from "./verdict/problems";
 import type { Recording, Second, Span } from "./data/recording";
 import { Stage } from "./scene/stage";
@@ -66,7 +66,8 @@ export class Page implements Desk {
       !!view && (run.recording === this.recording ? view.near(part, worst) : view.near("joint", this.jointName));
     this.choose(joint);
     view?.look((link.get("look") as Look | null) ?? "iso");
-    if (check) run.mark(dockAt(run.recording.meta, check.part, check.worst));
+    const own = check ? jointAt(run.recording.meta, check.part, check.worst) : -1;
+    if (check && (own === joint || !link.has("joint"))) run.mark(check.part, check.worst);
     // The camera moves to the part of a failed check, unless the link selects a view, joint or time.
     const free = !["look", "joint", "t"].some((key) => link.has(key));
     if (check && ["fail", "too close"].includes(check.status) && free) near(check);
@@ -105,8 +106,8 @@ export class Page implements Desk {
     this.seek(this.state.t);
   }
 
-  mark(dock: number): void {
-    this.stage.mark(dock);
+  mark(part: Part, name: string | null): void {
+    this.stage.mark(part, name);
   }
 
   zoom(span: Span | null): void {
@@ -131,8 +132,7 @@ export class Page implements Desk {
       choose: (joint) => {
         if (ghost.jointBack(joint) >= 0) this.choose(ghost.jointBack(joint));
       },
-      mark: (dock) =>
-        this.mark(dock < 0 ? -1 : this.recording.meta.docks.findIndex((_, n) => ghost.number("dock", n) === dock)),
+      mark: (part, name) => this.mark(part, name),
     };
   }
 

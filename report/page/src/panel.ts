@@ -1,6 +1,7 @@
 // Interfaces of the panels: the state that panels show, the functions of the page that panels call, and the events
 // that panels receive.
 import type { Ink } from "./colour";
+import type { Part } from "./data/format";
 import type { Ghost } from "./data/ghost";
 import type { Measured } from "./data/places";
 import type { Span } from "./data/recording";
@@ -19,8 +20,8 @@ export interface Run extends Measured {
   goTo(t: number): void;
   /** Selects a joint by its number in this run. */
   choose(joint: number): void;
-  /** Marks a dock in the 3D picture by its number in this run; -1 removes the mark. */
-  mark(dock: number): void;
+  /** Names a part of this run in the 3D picture instead of the joint, until a joint is selected. A dock has a ring. */
+  mark(part: Part, name: string | null): void;
 }
 
 /** Interface of the page for its panels. The members inherited from Run refer to the first run. */

@@ -3,14 +3,7 @@
 // folder, its height is 2 if the scenario has an error since. (A page from a file may load pictures, but no data.)
 import { make } from "./dom";
 import type { Page } from "./page";
-import type { Pose } from "./scene/view";
-
-/** View that a renewed page keeps. Joint and time are in its address. */
-interface Kept {
-  run: number; // run for which the page was loaded again
-  pose: Pose | null;
-  playing: boolean;
-}
+import { keep, restore } from "./kept";
 
 const often = 500; // ms between looks at the stamp
 const failed = "The scenario has an error, which the terminal shows. This is the run before it.";
@@ -20,9 +13,7 @@ const lost = "This page does not follow the scenario: stamp.svg, beside it, cann
 export function watch(page: Page): void {
   const run = Number(document.documentElement.dataset.watch ?? 0);
   if (!run) return;
-  const kept = (history.state as { watched?: Kept } | null)?.watched;
-  if (kept?.pose) page.stage.view?.pose(kept.pose);
-  if (kept?.playing) page.play(true);
+  const kept = restore(page);
   const note = make("p.watch-note");
   note.setAttribute("role", "status");
   note.hidden = true;
@@ -48,7 +39,6 @@ export function watch(page: Page): void {
 }
 
 function renew(page: Page, run: number): void {
-  const watched: Kept = { run, pose: page.stage.view?.kept() ?? null, playing: page.state.playing };
-  page.address.write(page, { watched });
+  keep(page, run);
   location.reload();
 }

@@ -27,7 +27,7 @@ class Browser:
         self.process = None
 
     def facts(self, file):
-        """Texts {headline, why, facts} of a page; None where NODE_MODULES names no modules (tests/node.sh)."""
+        """Texts {headline, events, why, facts} of a page; None where NODE_MODULES names no modules (tests/node.sh)."""
         if "NODE_MODULES" not in os.environ:
             return None
         if self.process is None:
@@ -140,7 +140,8 @@ def hear(shown, meta_, verdict, judged, known):
     elif said != expected:
         wrong.append(f"page: headline {said!r}, recomputed {expected!r}")
     if word == "infeasible":
-        shortfall(facts, first, judged, meta_, must, failing)
+        line = next((text for text, event in zip(shown["events"], verdict["events"]) if event["check"] == first["id"]), None)
+        shortfall(facts, line, first, judged, meta_, must, failing)
     else:
         walked(facts, verdict, checks, judged, meta_, must, known)
     for name in facts:
@@ -156,19 +157,19 @@ def names_of(told, check, which):
     return set(getattr(told, "first_parts", [told.first_part]))
 
 
-def shortfall(facts, first, judged, meta_, must, failing):
+def shortfall(facts, line, first, judged, meta_, must, failing):
     told, of = judged.checks[first["id"]], f" of {first['id']}"
     value, limit = (told.value, told.limit) if told else (first["value"], first["limit"])
     start, end = (told.start, told.end) if told else (first["from"], first["to"])
     at = told.first if told else first["first"]
     unit = first["unit"]
-    text = facts.pop("First over the limit", None)
-    firsts = names_of(told, first, "first_part") - {None}
-    expects = at is not None and at == at and bool(firsts)
-    if expects or text is not None:
+    expects = at is not None and at == at
+    if expects or line is not None:
+        firsts = names_of(told, first, "first_part") - {None}
+        time, _, body = (line or "").partition(" s ")
         names = part(meta_, first, firsts)
-        ok = expects and text is not None and any(text.startswith(name + " at ") for name in names)
-        must(ok and moment(text.rsplit(" at ", 1)[1], at), "First over the limit", (firsts, at), of)
+        ok = expects and line is not None and moment(time + SPACE + "s", at)
+        must(ok and (not names or any(body.startswith(name + " ") for name in names)), f"event {line!r}", (firsts, at), of)
     text = facts.pop("Worst", None)
     worst = names_of(told, first, "worst") - {None}
     if text is not None:

@@ -135,7 +135,10 @@ export interface Check {
 export interface Verdict {
   verdict: "feasible" | "infeasible" | "failed" | "not judged";
   reason: string; // reason of `not judged`
+  reason_code?: string;
+  retry?: string[]; // settings, as for --set, of a run that is expected to have a verdict
   reason_check?: string; // id of the check that it names: too close, failing so far, or not judged
+  events?: { time: number; check: string; part: string | null }[]; // failed checks by the time at which they first fail
   failures: string[]; // ids of the failed checks: the one that decides, those of group `run`, then by margin
   why: string; // text after the verdict, as on the terminal; "" for feasible
   unstable?: string; // sentence on an unstable controller, from which all other findings follow
@@ -209,6 +212,7 @@ export interface Stray {
 /** Second run on the page, and its differences from the first run (report/page/page_overlay.h). */
 export interface Overlay {
   labels: [own: string, second: string];
+  folders: [own: string, second: string]; // names of the run folders; "" for a golden
   differs: string[]; // settings that differ
   strayed: string | null; // reason why the run failed against its golden; null on a page that compares two runs
   strays: Stray[];

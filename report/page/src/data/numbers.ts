@@ -70,6 +70,19 @@ export const plural = (n: number, noun: string): string => `${n} ${noun}${n === 
 export const capital = (text: string): string =>
   /^\S*[\d/]/.test(text) ? text : text.charAt(0).toUpperCase() + text.slice(1);
 export const sentence = (text: string): string => (text ? capital(text) + (/[.!?]$/.test(text) ? "" : ".") : "");
+/**
+ * A text as sentences, which end at its semicolons. The first sentence has at most 25 words if it has a comma, colon or
+ * bracket at which it can end before.
+ */
+export function sentences(text: string): string[] {
+  const [first, ...rest] = text.split(/; (?:and )?/);
+  const parts = first.split(/(?<=[,:]) /);
+  const long = (kept: string[]) => kept.join(" ").split(" ").length > 25;
+  let kept = parts;
+  while (kept.length > 1 && long(kept)) kept = kept.slice(0, -1);
+  const cut = parts.slice(kept.length).join(" ");
+  return [kept.join(" ").replace(/[,:]$/, ""), ...(cut ? [cut] : []), ...rest].map(sentence);
+}
 /** Title for use within a sentence: an initial capital becomes lower case. */
 export const inSentence = (title: string): string =>
   /^[A-Z][a-z]/.test(title) ? title[0].toLowerCase() + title.slice(1) : title;

@@ -57,7 +57,8 @@ function measure({ recording, loads }: Measured, { id, part }: Check, name: stri
   const saturated = of("saturation");
   const share = loads.limited ? loads.share(j) : null;
   const measures: Record<string, Measure | null> = {
-    voltage: saturated && ((i) => Math.sign(saturated[i])),
+    voltage: saturated && ((i) => Number(saturated[i] === 1)),
+    current: saturated && ((i) => Number(saturated[i] === 2)),
     envelope: share && ((i) => share[i]),
     speed: size("speed"),
     heat: size("current"),
@@ -67,7 +68,7 @@ function measure({ recording, loads }: Measured, { id, part }: Check, name: stri
     stops: beyond(angle),
     setpoints: beyond(setpoint),
   };
-  return measures[id === "current" ? "voltage" : id] ?? null;
+  return measures[id] ?? null;
 }
 
 /**
@@ -105,6 +106,24 @@ export function firstMoment(run: Measured, check: Check): number | null {
   if (first === null || !of) return first;
   // The first row beyond the limit follows the exact time `first` within a few control ticks.
   return largestRow(run, of, first, first + Math.max(0.02, run.recording.meta.period));
+}
+
+/**
+ * True if the joint that is first at a limit of its motor is at this limit in every whole period from then to the end
+ * of the run, which has at least two of them. Parts of other checks may have other limits, so that this is not known.
+ */
+export function everyPeriod(run: Measured, check: Check): boolean {
+  const { meta, times, end } = run.recording;
+  const { id, first, first_part } = check;
+  const of = id === "voltage" || id === "current" ? measure(run, check, first_part) : null;
+  const period = meta.cycle?.period ?? (meta.frequency ? 1 / meta.frequency : Infinity);
+  const count = Math.floor((end - (first ?? end)) / period + 1e-6);
+  if (!of || first === null || count < 2) return false;
+  const met = new Set<number>();
+  times.forEach((t, i) => {
+    if (of(i)) met.add(Math.floor((t - first) / period));
+  });
+  return Array.from({ length: count }, (_, k) => k).every((k) => met.has(k));
 }
 
 /** Middle of the longest interval in the judged window in which a joint is at a limit of its motor, s. */

@@ -2,11 +2,13 @@
 // the other panels work.
 import type { Vector3 } from "three";
 import { element, make } from "../dom";
+import type { Part } from "../data/format";
 import { Labels } from "./labels";
 import { Legends } from "./legends";
 import { decimalsOf, fixed, percent } from "../data/numbers";
 import type { Desk, Panel } from "../panel";
-import { surroundings } from "./spot";
+import { dockAt, partName } from "../data/places";
+import { spot, surroundings } from "./spot";
 import { View, type Look } from "./view";
 
 export class Stage implements Panel {
@@ -15,6 +17,7 @@ export class Stage implements Panel {
   private readonly tag = element("tag");
   private readonly labels = new Labels(element("names"));
   private readonly legends: Legends | null = null;
+  private marked: [part: Part, name: string | null] | null = null; // part that the tag names; null for the joint
   private image: HTMLImageElement | null = null;
 
   constructor(
@@ -57,9 +60,10 @@ export class Stage implements Panel {
     this.legends?.paint(this.desk.ink.theme);
   }
 
-  /** Marks a dock; -1 removes the mark. */
-  mark(dock: number): void {
-    this.view?.mark(dock);
+  /** Names a part instead of the joint, and draws a ring around a dock. */
+  mark(part: Part, name: string | null): void {
+    this.marked = part === "joint" ? null : [part, name];
+    this.view?.mark(dockAt(this.desk.recording.meta, part, name));
     this.legends?.set();
   }
 
@@ -67,6 +71,7 @@ export class Stage implements Panel {
     this.view?.set(t);
   }
   choose(): void {
+    this.marked = null;
     this.view?.select(this.desk.state.joint);
   }
 
@@ -128,7 +133,11 @@ export class Stage implements Panel {
     const { recording, state } = this.desk;
     const { joints } = recording.meta;
     const j = view.hovered >= 0 ? view.hovered : state.joint;
-    this.point(j, j >= 0 ? view.place(j) : null);
+    const part = view.hovered >= 0 ? null : this.marked;
+    if (part) {
+      const at = spot({ meta: recording.meta, kinematics: view.kinematics, rings: view.rings }, ...part);
+      this.point(at && view.project(at), partName(recording.meta, part[0], part[1] ?? ""));
+    } else this.point(j >= 0 ? view.place(j) : null, joints[j]?.name, this.load(j));
     const mass = view.support.shown && view.support.any ? view.project(view.support.centre) : null;
     element("mass").hidden = !mass;
     if (mass) element("mass").style.transform = `translate(${mass.map((x) => `${(x - 9).toFixed(1)}px`).join(",")})`;
@@ -144,17 +153,21 @@ export class Stage implements Panel {
     ]);
   }
 
-  /** Writes name, torque and load of a joint next to its place in the picture; hides the text without a place. */
-  private point(j: number, at: [number, number] | null): void {
+  /** Torque and load of a joint at the time shown; "" if they are not recorded. */
+  private load(j: number): string {
     const { recording, loads, state } = this.desk;
+    const torque = recording.find(`joint.${j}.torque`);
+    if (!recording.ran || !torque) return "";
+    const share = loads.limited ? `, ${percent(Math.round(100 * loads.shareAt(j, state.t)) / 100)}` : "";
+    return ` ${fixed(recording.at(torque, state.t), decimalsOf(loads.peak, "N m"))} N m${share}`;
+  }
+
+  /** Writes a name and numbers next to a place in the picture; hides the text without a place. */
+  private point(at: [number, number] | null, name = "", numbers = ""): void {
     this.tag.hidden = !at;
     if (!at) return;
-    const torque = recording.find(`joint.${j}.torque`);
     const width = this.host.clientWidth;
-    const decimals = decimalsOf(loads.peak, "N m");
-    const share = loads.limited ? `, ${percent(Math.round(100 * loads.shareAt(j, state.t)) / 100)}` : "";
-    const numbers = recording.ran && torque ? ` ${fixed(recording.at(torque, state.t), decimals)} N m${share}` : "";
-    this.tag.replaceChildren(make("b", recording.meta.joints[j].name), numbers);
+    this.tag.replaceChildren(make("b", name), numbers);
     const half = this.tag.offsetWidth / 2;
     const x = Math.min(Math.max(at[0], half + 8), width - half - 8);
     const under = at[1] < 84;

@@ -23,13 +23,13 @@ export function about(meta: Meta): string {
     .join(" · ");
 }
 
-/** Title of the page: the name of the run, or the names and labels of both runs. */
+/** Title of the page: the name of the run, or the names of both runs, with their folders if the names are equal. */
 export function title(runs: readonly Run[]): string {
   const [own, second] = runs.map((r) => r.recording.meta.name);
   const overlay = runs[0].recording.meta.overlay;
   if (!overlay || second === undefined) return own;
   return own === second
-    ? `${own}: ${overlay.labels.join(" and ")}`
+    ? `${own}: ${(overlay.strayed ? overlay.labels : overlay.folders).join(" and ")}`
     : `${overlay.labels[0]} ${own}, ${overlay.labels[1]} ${second}`;
 }
 

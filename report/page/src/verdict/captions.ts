@@ -11,7 +11,9 @@ export function captions(desk: Desk): void {
   const { meta } = desk.recording;
   const ran = meta.outcome !== "not run";
   const twoRuns = desk.ghost && !desk.ghost.overlay.strayed;
-  element("name").textContent = title(desk.runs);
+  const name = title(desk.runs);
+  element("name").textContent = name;
+  document.title = `${name}: gaitlab report`;
   element("about").textContent = twoRuns ? "" : about(meta);
   document.documentElement.classList.toggle("planned", !ran);
   headline(desk);
@@ -54,6 +56,6 @@ function origin({ recording: { meta }, runs, ghost }: Desk): string[] {
     made,
     `Trace hash: ${hashes.join(", ")}.`,
     "Values on this page are rounded. The trace has them in full.",
-    `The same run again: ${meta.command.replace("FOLDER", folder())}`,
+    `The same run again: ${meta.command.replace("FOLDER", folder(meta))}`,
   ];
 }

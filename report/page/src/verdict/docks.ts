@@ -106,7 +106,7 @@ function head(desk: Desk, n: number): HTMLTableCellElement {
 /** Button that marks a dock in the 3D picture. */
 const marker = (desk: Desk, n: number, text: string): HTMLElement =>
   link(text, () => {
-    desk.mark(n);
+    desk.mark("dock", desk.recording.meta.docks[n].name);
     element("stage").scrollIntoView({ block: "nearest" });
   });
 

@@ -4,7 +4,7 @@ import type { Check, Meta } from "../data/format";
 import { inSentence, number, percent, quantity, span, time } from "../data/numbers";
 import type { Run } from "../panel";
 import { place } from "./place";
-import { firstMoment, jointAt, longestMoment, moment, partName } from "../data/places";
+import { jointAt, longestMoment, moment, partName } from "../data/places";
 
 export type Fact = [name: string, value: Node | string, small?: string];
 
@@ -18,12 +18,11 @@ const limitOf = ({ limit, unit, least }: Check): string => `limit ${least ? "≥
 const held = (check: Check): string => `${quantity(check.value, check.unit)}, ${limitOf(check)}`;
 
 /**
- * Facts of an infeasible gait, the same as on the terminal and in the figure. They are the part that first exceeds the
- * limit of the failed check, the part that exceeds the limit most, the joint that is at a limit of its motor for the
- * largest share of the judged time, and the missing amount.
+ * Facts of an infeasible gait, the same as on the terminal and in the figure: the part that exceeds the limit of the
+ * failed check most, the joint that is at a limit of its motor for the largest share of the judged time, when, and the
+ * missing amount.
  */
 export const shortfall = (run: Run, first: Check, failed: Check[]): Fact[] => [
-  ...firstOver(run, first),
   ...worst(run, first),
   ...longest(run, first),
   ...when(run, first),
@@ -31,12 +30,6 @@ export const shortfall = (run: Run, first: Check, failed: Check[]): Fact[] => [
 ];
 
 const ofMotor = ({ id }: Check): boolean => id === "voltage" || id === "current";
-
-function firstOver(run: Run, check: Check): Fact[] {
-  const { part, first, first_part } = check;
-  if (first === null || first_part === null) return [];
-  return [["First over the limit", place(run, part, first_part, firstMoment(run, check)), `at ${time(first)}`]];
-}
 
 function worst(run: Run, check: Check): Fact[] {
   if (check.worst !== null) return [["Worst", place(run, check.part, check.worst, moment(run, check)), held(check)]];

@@ -1,7 +1,9 @@
 // Verdict of the page: a card per run with the verdict, the reasons for the verdict, and the main numbers of the run.
 import { about } from "./about";
 import { element, icon, make } from "../dom";
+import { events } from "./events";
 import type { Fact } from "./facts";
+import { folder, word } from "../data/folder";
 import type { Overlay } from "../data/format";
 import type { Ghost } from "../data/ghost";
 import { aside, judgement, type Judgement, type Mood } from "./judgement";
@@ -19,6 +21,7 @@ const badges: Record<Mood, string> = {
 export function headline(desk: Desk): void {
   const { ghost } = desk;
   const own = element("verdict");
+  if (!ghost?.overlay.strayed) desk.runs.forEach((run, n) => aboveTime(run, ghost?.overlay.labels[n] ?? ""));
   if (!ghost) {
     card(own, desk, judgement(desk), aside(desk.recording.meta));
     return;
@@ -33,6 +36,15 @@ export function headline(desk: Desk): void {
     cards(own, desk, overlay);
   }
   pair(ghost);
+}
+
+/** The events of a run above the time slider, after the name of the run. */
+function aboveTime(run: Run, label: string): void {
+  const list = make("ol.events");
+  list.ariaLabel = `What failed${label && ` in ${label}`}`;
+  list.dataset.run = label;
+  element("happened").append(list);
+  events(list, run);
 }
 
 /** Legend of two runs, and a list of their differences. */
@@ -66,7 +78,7 @@ function settings({ differs, labels: [a, b], strayed }: Overlay): HTMLElement | 
 }
 
 /** A card for each of two runs, side by side. */
-function cards(own: HTMLElement, desk: Desk, { labels }: Overlay): void {
+function cards(own: HTMLElement, desk: Desk, { labels, folders }: Overlay): void {
   const second = own.cloneNode(true) as HTMLElement;
   second.removeAttribute("id");
   for (const one of second.querySelectorAll("[id]")) one.id = `${one.id}-second`;
@@ -75,12 +87,15 @@ function cards(own: HTMLElement, desk: Desk, { labels }: Overlay): void {
   [own, second].forEach((host, n) => {
     const run = desk.runs[n];
     const { meta } = run.recording;
-    const made = judgement(run);
+    const place = n ? word(folders[n]) : folder(meta);
+    const made = judgement(run, place);
     const tag = make(`span.tag-${n ? "second" : "own"}`, labels[n]);
     host.removeAttribute("aria-labelledby");
     host.setAttribute("aria-label", `${labels[n]}: ${made.said}`); // both may have the same verdict
-    card(host, run, { ...made, facts: made.facts.slice(0, 4) }, aside(meta, n === 0));
-    host.querySelector(".words")!.prepend(make("p.whose", tag, make("b", meta.name), ` ${about(meta)}`));
+    card(host, run, { ...made, facts: made.facts.slice(0, 4) }, aside(meta, place));
+    host
+      .querySelector(".words")!
+      .prepend(make("p.whose", tag, make("b", folders[n]), ` ${meta.name} · ${about(meta)}`));
   });
 }
 
@@ -90,7 +105,8 @@ function card(host: HTMLElement, run: Run, { mood, said, why, facts }: Judgement
   host.dataset.mood = mood;
   part("badge").append(icon(badges[mood], 24));
   part("said").textContent = said;
-  part("reason").textContent = why.join(" ");
+  part("reason").append(...why.flatMap((one, k) => (k ? [" ", one] : [one])));
+  events(part("events"), run);
   part("aside").append(...beside.flatMap((one) => [one, " "]));
   part("facts").dataset.count = String(facts.length);
   part("facts").append(

@@ -1,9 +1,10 @@
 // Judgement of a run in words: the verdict, the reasons for the verdict, and the limitations of the verdict.
 import { make } from "../dom";
+import { happened } from "./events";
 import { built, hardest, shortfall, walked, type Fact } from "./facts";
-import { folder } from "../data/folder";
+import { folder, word } from "../data/folder";
 import type { Check, Meta } from "../data/format";
-import { capital, inSentence, percent, plural, quantity, sentence } from "../data/numbers";
+import { capital, inSentence, percent, plural, quantity, sentence, sentences } from "../data/numbers";
 import type { Run } from "../panel";
 import { jointAt, moment } from "../data/places";
 
@@ -12,23 +13,29 @@ export type Mood = "good" | "bad" | "open" | "plan";
 export interface Judgement {
   mood: Mood;
   said: string;
-  why: string[];
+  why: (string | Node)[];
   facts: Fact[];
 }
 
 const few = 2; // largest number of further failed checks in the sentence; the table of checks contains all
 
-export function judgement(run: Run): Judgement {
+/** Command to copy. A line does not break within its `start`. */
+const command = (start: string, ...words: string[]): HTMLElement =>
+  make("code", make("span.whole", start), ...words.map((one) => ` ${one}`));
+
+/** Judgement of a run in a folder. */
+export function judgement(run: Run, place = folder(run.recording.meta)): Judgement {
   const { draws, unstable } = run.recording.meta.verdict ?? {};
   // All other findings follow from an unstable controller, and are therefore left out.
-  const judged = unstable ? { ...ofRun(run), why: [sentence(unstable)], facts: [] } : ofRun(run);
+  const found = ofRun(run, place);
+  const judged = unstable ? { ...found, why: [sentence(unstable)], facts: [] } : found;
   if (!draws) return judged;
   const why = [...judged.why, sentence(draws.text)];
   if (judged.mood !== "good" || draws.feasible === draws.count) return { ...judged, why };
   return { ...judged, mood: "open", said: `Feasible with ${draws.feasible} of ${draws.count} seeds`, why };
 }
 
-function ofRun(run: Run): Judgement {
+function ofRun(run: Run, place: string): Judgement {
   const { outcome, verdict } = run.recording.meta;
   if (outcome === "not run") return planned(run);
   switch (verdict.verdict) {
@@ -37,7 +44,7 @@ function ofRun(run: Run): Judgement {
     case "infeasible":
       return infeasible(run);
     case "not judged":
-      return unjudged(run);
+      return unjudged(run, place);
     case "feasible":
       return feasible(run);
   }
@@ -57,7 +64,7 @@ function ended(run: Run): Judgement {
   return {
     mood: "bad",
     said: `The run ended early, at ${quantity(meta.duration, "s")}`,
-    why: [sentence(meta.verdict.why || meta.outcome), ...others(failures(meta).filter((c) => c.id !== "outcome"))],
+    why: [sentence(meta.verdict.why || meta.outcome), ...others(meta, failures(meta))],
     facts: walked(run),
   };
 }
@@ -69,19 +76,35 @@ function infeasible(run: Run): Judgement {
   return {
     mood: "bad",
     said: first?.group === "motor" && !meta.verdict.unstable ? "Not feasible with these motors" : "Not feasible",
-    why: [sentence(meta.verdict.why), ...others(rest)],
+    why: [sentence(meta.verdict.why), ...others(meta, rest)],
     facts: first ? shortfall(run, first, failed) : walked(run),
   };
 }
 
-function unjudged(run: Run): Judgement {
+/** Judgement that begins with the missing evidence, and the command that supplies it if one is known. */
+function unjudged(run: Run, place: string): Judgement {
   const { meta } = run.recording;
-  const { why, reason, reason_check } = meta.verdict;
+  const { why, reason, reason_check, reason_code, retry = [], checks } = meta.verdict;
+  const [lacks, found] = (why || reason).split("; so far: ");
+  const close = checks.find((c) => reason_code === "too close" && c.id === reason_check);
+  const sets = retry.flatMap((one) => ["--set", word(one)]);
+  const again = retry.length
+    ? command("gaitlab run", `${place}/scenario.resolved.yaml`, ...sets)
+    : reason_code === "rows alone" && command("gaitlab rerun", place);
+  // The command replaces its advice.
+  const told = sentences(lacks).filter((one) => !again || !/^(Take|Gaitlab) /.test(one));
   const failed = failures(meta);
   return {
     mood: "open",
     said: "Not judged",
-    why: [sentence(why || reason), ...(failed.some((c) => c.id === reason_check) ? [] : others(failed))],
+    why: [
+      ...(close ? [`The value of the check “${close.title}” is too close to its limit.`] : []),
+      ...told.slice(0, close ? 0 : 1),
+      ...(again ? ["Judge by", again] : []),
+      ...told.slice(close ? 0 : 1),
+      ...(found ? [`So far: ${sentence(found)}`] : []),
+      ...(failed.some((c) => c.id === reason_check) ? [] : others(meta, failed)),
+    ],
     facts: walked(run),
   };
 }
@@ -127,7 +150,9 @@ export function leading(run: Run): Check | null {
   );
 }
 
-function others(failed: Check[]): string[] {
+/** Failed checks that the line of events does not contain. */
+function others(meta: Meta, all: Check[]): string[] {
+  const failed = all.filter((c) => c.id !== "outcome" && !happened(meta).includes(c));
   const rest = failed.length - few;
   const more = rest > 0 ? `; ${plural(rest, "more check")} fail${rest > 1 ? "" : "s"}` : "";
   return failed.length ? [`Also: ${briefly(failed.slice(0, few))}${more}.`] : [];
@@ -137,7 +162,7 @@ function others(failed: Check[]): string[] {
 const briefly = (found: Check[]): string => found.map((c) => c.text.split("; ")[0].replace(/[.]$/, "")).join("; ");
 
 /** Limitations of the verdict: warnings, doubtful numbers, checks that were not judged. None for an unstable run. */
-export function aside(meta: Meta, own = true): (string | Node)[] {
+export function aside(meta: Meta, place = folder(meta)): (string | Node)[] {
   if (meta.outcome === "not run" || meta.verdict.unstable) return [];
   const { verdict, counts, chosen_motors, chosen_docks, demand } = meta.verdict;
   const of = (trust: boolean, ...status: Check["status"][]) =>
@@ -154,10 +179,7 @@ export function aside(meta: Meta, own = true): (string | Node)[] {
     ...(chosen_motors ? ["Motor data are chosen, not the manufacturer's."] : []),
     ...(chosen_docks ? ["Strengths of the docks are chosen."] : []),
     ...(limited && !gait.some((c) => c.missing)
-      ? [
-          "The missing torque or current was not computed. To compute it:",
-          make("code", make("span.whole", "gaitlab report --demand"), ` ${own ? folder() : "FOLDER"}`),
-        ]
+      ? ["The missing torque or current was not computed. To compute it:", command("gaitlab report --demand", place)]
       : []),
     ...(doubtful.length ? [`Doubtful: ${briefly(doubtful)}.`] : []),
     ...(demand?.doubt ? [sentence(demand.doubt)] : []),

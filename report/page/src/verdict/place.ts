@@ -2,13 +2,13 @@
 import { link } from "../dom";
 import type { Part } from "../data/format";
 import type { Run } from "../panel";
-import { dockAt, jointAt, partName } from "../data/places";
+import { jointAt, partName } from "../data/places";
 
-/** Shows a part and a time: selects the joint of the part, marks the part if it is a dock, and sets the time. */
+/** Shows a part and a time: selects the joint of the part, names the part in the 3D picture, and sets the time. */
 export function show(run: Run, part: Part, name: string | null, t: number | null): void {
   const joint = jointAt(run.recording.meta, part, name);
   if (joint >= 0) run.choose(joint);
-  run.mark(dockAt(run.recording.meta, part, name));
+  run.mark(part, name);
   if (t !== null) run.goTo(t);
 }
 
