@@ -25,12 +25,9 @@ PageData overlaid(const PageData& a, const PageData& b, const PageOverlay& overl
                       {"from", stray.from ? Json(*stray.from) : Json()}});
   }
   Json meta = Json::parse(a.meta);
-  meta["overlay"] = {{"labels", overlay.labels},
-                     {"folders", overlay.folders},
-                     {"differs", overlay.differs},
-                     {"strayed", overlay.strayed.empty() ? Json() : Json(overlay.strayed)},
-                     {"strays", std::move(strays)},
-                     {"differences", channels_json(differences)},
+  meta["overlay"] = {{"labels", overlay.labels},    {"folders", overlay.folders},
+                     {"differs", overlay.differs},  {"strayed", overlay.strayed.empty() ? Json() : Json(overlay.strayed)},
+                     {"strays", std::move(strays)}, {"differences", channels_json(differences)},
                      {"run", Json::parse(b.meta)}};
   return {a.name == b.name ? a.name : a.name + ", " + b.name, json_text(meta),
           a.data + "\n" + b.data + (overlay.strays.empty() ? "" : "\n" + differences.text())};
