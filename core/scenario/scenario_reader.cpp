@@ -227,14 +227,14 @@ void ScenarioReader::read_sections() {
   if (!gains.agreed() && !given(root_, "controller") && !sections.actuator.none)
     gains.refuse(given(root_, "robot").value_or(root_.place), problems_);
   check_sections(sections, joints);
+  const std::size_t before = problems_.size();
   if (reads("sensors")) scenario_.sensors = read_sensors(root_.find("sensors"), scenario_, catalog_, joints, problems_);
   if (!given(root_, "trace", "columns")) scenario_.trace.columns = default_columns(scenario_);
   const auto concerns = [&](const char* section) { return reads(section); };
   constexpr std::array kOfPlugins{"physics", "contact", "supply", "actuator", "controller", "cpg", "sensors"};
-  const std::size_t before = problems_.size();
   if (std::ranges::any_of(kOfPlugins, concerns)) make_plugins(sections);
   const bool made = problems_.size() == before && (!sections.has_cpg || sections.cpg.sound);
-  if (!scenario_.initial.stated && !made) return;  // the start follows from a CPG that could not be made
+  if (!scenario_.initial.stated && !made) return;  // the start follows from a CPG that was not made
   if (as_ != ReadAs::module_type) ScenarioChecks(root_, scenario_, catalog_, problems_).initial_angles();
 }
 

@@ -20,13 +20,14 @@ Scenario dog(const std::string& values, std::vector<std::string> sets = {}) {
 
 /// v = 0 until 0.1 s, 2 (t - 0.1)/0.2 until 0.3 s, then 2: a column in force just before its row.
 TEST(Steering, IsLinearBetweenPoints) {
-  const Scenario s = dog("speed: {unit: m/s, value: 0.1}, mark: {unit: V, points: [[0.1, 0], [0.3, 2]]}",
-                         {"duration=0.5", "trace.columns=[\"sensor.*\"]", "trace.period=0.002"});
+  const Scenario s = dog("speed: {unit: m/s, value: 0.1}",
+                         {"sensors.second={type: steering, values: {mark: {unit: V, points: [[0.1, 0], [0.3, 2]]}}}",
+                          "duration=0.5", "trace.columns=[\"sensor.*\"]", "trace.period=0.002"});
   const Recording record = run(s);
   const Table table(record.trace);
   for (std::size_t row = 1; row < record.trace.rows(); ++row) {
     const double tick = table.at(row, "t") - s.control_period;
-    EXPECT_NEAR(table.at(row, "sensor.remote.mark"), std::clamp((tick - 0.1) / 0.1, 0.0, 2.0), 1e-9) << row;
+    EXPECT_NEAR(table.at(row, "sensor.second.mark"), std::clamp((tick - 0.1) / 0.1, 0.0, 2.0), 1e-9) << row;
     EXPECT_EQ(table.at(row, "sensor.remote.speed"), 0.1);
   }
 }
@@ -207,6 +208,10 @@ TEST(Steering, Messages) {
   const auto of = [&](const std::string& value) {
     return refused({"sensors={remote: {type: steering, values: {turn: {" + value + "}}}}"});
   };
+  const std::string once =
+      refused({"cpg.model.steering=remote", "sensors={remote: {type: steering, values: {turn: {points: [[0]]}}}}"});
+  EXPECT_TRUE(contains(once, "point 0 of points has 1 numbers")) << once;
+  EXPECT_FALSE(contains(once, "no sensor gives") || contains(once, "initial angle")) << "one fault, one message: " << once;
   EXPECT_TRUE(contains(of("points: [[0, 1], [0, 2]]"), "point 1 of points is not later than the one before it"));
   EXPECT_TRUE(contains(of("points: [[0, 1, 2]]"), "point 0 of points has 3 numbers; expected [time, value]"));
   EXPECT_TRUE(contains(of("value: 0, points: [[0, 1]]"), "unknown key 'value'"));
