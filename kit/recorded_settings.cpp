@@ -33,6 +33,11 @@ std::string points(const Recorded& episode, std::size_t column, double control_p
   return "points: [" + all + "]";
 }
 
+void put_on_one_line(Node& node) {
+  node.flow = true;
+  for (Node& item : node.items) put_on_one_line(item);
+}
+
 /// Section `sensors` with the values that were sent.
 std::string steered_sensors(const Scenario& s, const Recorded& episode) {
   Node sensors = sensors_node(s, joint_names(*s.robot));
@@ -53,7 +58,10 @@ std::string steered_sensors(const Scenario& s, const Recorded& episode) {
       }
     }
   }
-  return "sensors=" + print_yaml(sensors);
+  put_on_one_line(sensors);
+  std::string text = print_yaml(sensors);
+  while (text.ends_with('\n')) text.pop_back();
+  return "sensors=" + text;
 }
 
 }  // namespace
