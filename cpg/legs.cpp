@@ -201,9 +201,10 @@ Legs::Legs(const RobotInfo& robot, const Settings& settings) : s_(settings) {
 std::vector<double> Legs::phases(const RobotInfo& robot) const {
   const std::vector<double>& given = s_.model.phases;
   if (given.empty()) return phases_of(s_.model.gait, robot.legs);
-  if (leans(s_.model.gait) && s_.model.lean > 0)
+  if (leans(s_.model.gait) && s_.model.lean > 0) {
     throw SettingError("model.phases",
                        "model.phases is given, and the body leans over the phases of the gait; expected lean: 0");
+  }
   if (given.size() == robot.legs.size()) return given;
   std::string names;
   for (const Leg& leg : robot.legs) names += (names.empty() ? "" : ", ") + leg.name;
@@ -237,9 +238,10 @@ void Legs::find_steering(const RobotInfo& robot) {
   for (const std::string& name : robot.channels) {
     const bool own = name.starts_with(s_.model.steering + ".");
     const auto known_name = [&](const char* one) { return name == s_.model.steering + "." + one; };
-    if (own && std::ranges::none_of(kSteeredNames, known_name))
+    if (own && std::ranges::none_of(kSteeredNames, known_name)) {
       throw SettingError("model.steering",
                          "legs do not follow '" + name + "'; expected " + wanted + ", or another sensor for it");
+    }
   }
   const Model& m = s_.model;
   const std::array<std::tuple<const char*, double, std::size_t>, 4> keys{

@@ -42,9 +42,11 @@ void SteeringSensor::Settings::fields(Fields& f) {
   Marked(f, Need::required).by_name("values", values, "turn: {unit: rad/s, value: 0.2}", "Values by name.");
   for (const Sent& one : values) {
     const auto part = [](unsigned char c) { return c < 0x80 && (std::isalnum(c) != 0 || c == '_'); };
-    if (one.name.empty() || std::isalpha(static_cast<unsigned char>(one.name[0])) == 0 || !std::ranges::all_of(one.name, part))
+    if (one.name.empty() || std::isalpha(static_cast<unsigned char>(one.name[0])) == 0 ||
+        !std::ranges::all_of(one.name, part)) {
       f.problem("values",
                 "'" + one.name.substr(0, 40) + "' is not a name of a value; expected a letter, then letters, digits and _");
+    }
   }
 }
 

@@ -120,7 +120,9 @@ TEST_F(GoldenCommand, AnotherMotorIsARegression) {
   for (std::size_t at = figure.find(bands); at != std::string::npos; at = figure.find(bands, at + 1)) ++panels;
   EXPECT_EQ(panels, 6U);
   const std::string page = read(folder / "runs/test/good.failure.html");
-  expect_contains(page, "\"overlay\":{\"labels\":[\"golden\",\"now\"],\"differs\":[\"actuator.Kt: 0.00395 -> 0.0039895\"]");
+  expect_contains(page,
+                  "\"overlay\":{\"labels\":[\"golden\",\"now\"],\"folders\":[\"\",\"\"],\"differs\":[\"actuator.Kt: 0.00395 -> "
+                  "0.0039895\"]");
   expect_contains(page, " numbers outside their bands. The golden is of approval 1 (first golden)\",\"strays\":[{\"signal\":");
   expect_contains(page, "{\"signal\":\"joint.3.torque\",\"unit\":\"N m\",\"ratio\":");
   EXPECT_EQ(page.find(folder / ""), std::string::npos);
