@@ -17,7 +17,7 @@ class Page(InFolder):
         with open(os.path.join(ROOT, "docs", "python.md")) as file:
             blocks = re.findall(r"(?:^    .*\n|^\n(?=    ))+", file.read(), re.M)
         code = [re.sub(r"^    ", "", block, flags=re.M) for block in blocks if "gaitlab." in block]
-        self.assertEqual(len(code), 5)
+        self.assertEqual(len(code), 6)
         study = next(re.sub(r"^    ", "", block, flags=re.M) for block in blocks if "gaitlab_study: 1" in block)
         with open("study.yaml", "w") as file:  # with four points, for a short test
             file.write(study.replace("scenarios/", f"{ROOT}/scenarios/").replace("cma", "random").replace("96", "4"))
