@@ -95,6 +95,7 @@ for (const [name, file] of Object.entries(pages)) {
     assert.match(await page.textContent("#stage"), /cannot draw in 3D/);
     if (said[name]) assert.match(await page.textContent("#said"), said[name]);
     for (const key of ["f", "c", "n", "a", "1", "j", "d"]) await page.keyboard.press(key);
+    for (const button of ["#card", "#film"]) assert.ok(await page.isHidden(button), button);
     if (meta.joints.length) assert.equal(await page.$eval("#joint", (list) => list.options.length), meta.joints.length);
     assert.ok(await page.isHidden("#faces"));
   });
@@ -764,6 +765,72 @@ on("strayed: what left its band first, when, how far", pages.strayed, flat, asyn
 
 // The bytes that report/page/page_data.cpp writes for these values, by hand from the rule: differences, zigzag, LEB128.
 // 0 1 -1 64 -64 8191 -8192 1000000: differences 0 1 -2 65 -128 8255 -16383 1008192, zigzag 0 2 3 130 255 16510 32765 2016384.
+/** Clicks a button that saves a file, and returns the name and the bytes of the file. */
+const saved = async (page, button) => {
+  const [download] = await Promise.all([page.waitForEvent("download"), page.click(button)]);
+  return [download.suggestedFilename(), readFileSync(await download.path())];
+};
+/** Loads a video in an empty page; `frame` returns its picture at a time, 160 x 90 grey values. */
+const video = async (page, bytes) => {
+  const empty = await page.context().newPage();
+  const facts = await empty.evaluate(async (base64) => {
+    const of = Object.assign(document.createElement("video"), { src: `data:video/webm;base64,${base64}` });
+    document.body.append(of);
+    await new Promise((done, failed) => Object.assign(of, { onloadeddata: done, onerror: () => failed(new Error(of.error.message)) }));
+    return [of.duration, of.videoWidth, of.videoHeight];
+  }, bytes.toString("base64"));
+  const frame = (t) => empty.evaluate(async (at) => {
+    const of = document.querySelector("video"), on = new OffscreenCanvas(160, 90).getContext("2d");
+    await new Promise((done) => Object.assign(of, { onseeked: done, currentTime: at }));
+    on.drawImage(of, 0, 0, 160, 90);
+    return [...on.getImageData(0, 0, 160, 90).data].filter((_, k) => k % 4 === 1);
+  }, t);
+  return { facts, frame };
+};
+
+on("feasible: the film has the run's motion at the speed chosen", pages.feasible, {}, async (page, meta) => {
+  await page.evaluate(() => window.gaitlab.page.zoom([1, 3]));
+  await page.selectOption("#speed", "4");
+  const before = await state(page);
+  const [name, bytes] = await saved(page, "#film");
+  assert.equal(name, `${meta.name}.webm`);
+  await page.waitForFunction(() => document.getElementById("film").textContent === "Film");
+  assert.deepEqual(await state(page), before);
+  const { facts, frame } = await video(page, bytes);
+  assert.deepEqual(facts, [0.5, 1280, 720]);
+  // Of the pictures at the times of all frames, that of its own time is nearest to a frame.
+  const pictures = await page.evaluate(() => Array.from({ length: 15 }, (_, k) => {
+    const on = new OffscreenCanvas(160, 90).getContext("2d");
+    on.drawImage(window.gaitlab.page.stage.view.picture(1 + (4 * k) / 30, 1280, 720), 0, 0, 160, 90);
+    return [...on.getImageData(0, 0, 160, 90).data].filter((_, i) => i % 4 === 1);
+  }));
+  const apart = (a, b) => a.reduce((sum, x, i) => sum + Math.abs(x - b[i]), 0);
+  for (const k of [0, 4, 9, 14]) {
+    const seen = await frame((k + 0.5) / 30), off = pictures.map((one) => apart(one, seen));
+    assert.equal(off.indexOf(Math.min(...off)), k, `frame ${k}: ${off}`);
+  }
+});
+
+on("infeasible: the picture of a message; a film that is stopped leaves no file", pages.infeasible, { link: "t=2" }, async (page, meta) => {
+  const [name, bytes] = await saved(page, "#card");
+  assert.equal(name, `${meta.name}.png`);
+  assert.deepEqual([bytes.readUInt32BE(16), bytes.readUInt32BE(20)], [1200, 630]);
+  let files = 0;
+  page.on("download", () => files++);
+  await page.click("#film");
+  await page.waitForFunction(() => document.getElementById("film").textContent.startsWith("Stop"));
+  await page.click("#film");
+  await page.waitForFunction(() => document.getElementById("film").textContent === "Film");
+  assert.equal(files, 0);
+  assert.equal((await state(page)).t, 2);
+  // An encoder that fails: the page says why.
+  await page.evaluate(() => { VideoEncoder.prototype.encode = () => { throw new Error("no memory"); }; });
+  await page.click("#film");
+  await page.waitForSelector("#unsaved:visible");
+  assert.equal(await page.textContent("#unsaved"), "The .webm file could not be made: no memory.");
+  assert.ok(await page.isHidden(".still"));
+});
+
 on("unpacks the bytes that C++ packs", Object.values(pages)[0], flat, async (page) => {
   const bytes = [0x00, 0x02, 0x03, 0x82, 0x01, 0xff, 0x01, 0xfe, 0x80, 0x01, 0xfd, 0xff, 0x01, 0x80, 0x89, 0x7b];
   const unpacked = (channels, list) => page.evaluate(([c, b]) => [...window.gaitlab.unpack(c, Uint8Array.from(b))].map(([name, values]) => [name, [...values]]), [channels, list]);

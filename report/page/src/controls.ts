@@ -1,6 +1,7 @@
 // Controls of the page: buttons, keys, and the change of the theme for printing.
 import type { Theme } from "./colour";
 import { element } from "./dom";
+import { saves } from "./film/save";
 import type { Page } from "./page";
 import type { Look } from "./scene/view";
 
@@ -8,6 +9,7 @@ export function controls(page: Page): void {
   buttons(page);
   addEventListener("keydown", (e) => press(page, e));
   print(page);
+  saves(page);
 }
 
 const otherTheme = ({ ink }: Page): Theme => (ink.theme === "dark" ? "light" : "dark");

@@ -247,7 +247,7 @@ export class View {
 
   // Size of a pixel of the canvas at the distance 1 from the camera.
   private get pixelAt1(): number {
-    return (2 * Math.tan((this.camera.fov * Math.PI) / 360)) / this.height;
+    return (2 * Math.tan((this.camera.fov * Math.PI) / 360)) / (this.height * this.camera.zoom);
   }
 
   /** Position of a hinge on the canvas, CSS px; null if the hinge is behind the camera. */
@@ -271,10 +271,16 @@ export class View {
   resize(): void {
     const host = this.canvas.parentElement!.getBoundingClientRect();
     if (host.width < 2 || host.height < 2) return;
-    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio || 1, 2) * (this.lightened > 1 ? 0.7 : 1));
-    this.renderer.setSize(host.width, host.height, false);
-    this.height = host.height;
-    this.camera.aspect = host.width / host.height;
+    this.fit(host.width, host.height, Math.min(window.devicePixelRatio || 1, 2) * (this.lightened > 1 ? 0.7 : 1));
+  }
+
+  /** Sets the size, and for `zoom` below 1 a wider field of view. */
+  private fit(width: number, height: number, ratio: number, zoom = 1): void {
+    this.renderer.setPixelRatio(ratio);
+    this.renderer.setSize(width, height, false);
+    this.height = height;
+    this.camera.aspect = width / height;
+    this.camera.zoom = zoom;
     this.camera.updateProjectionMatrix();
     this.gauges.pixel = this.pixelAt1;
     this.dirty = true;
@@ -301,6 +307,18 @@ export class View {
     this.dirty = true;
     this.render();
     return this.canvas.toDataURL("image/png");
+  }
+
+  /** Draws a time with this size, px, and all that the page shows of it. The canvas keeps the size until resize(). */
+  picture(t: number, width: number, height: number): HTMLCanvasElement {
+    const { canvas } = this;
+    const host = canvas.parentElement!.getBoundingClientRect();
+    const zoom = Math.min(1, (width * host.height) / (height * host.width));
+    const size = [canvas.width, canvas.height, this.renderer.getPixelRatio(), this.camera.zoom];
+    if (size.some((x, k) => x !== [width, height, 1, zoom][k])) this.fit(width, height, 1, zoom);
+    this.set(t);
+    this.render();
+    return canvas;
   }
 
   // Point that the camera follows: the centre of mass, or the base or the mean position of the bodies if the centre of

@@ -100,7 +100,7 @@ function unjudged(run: Run, place: string): Judgement {
     why: [
       ...(close ? [`The value of the check “${close.title}” is too close to its limit.`] : []),
       ...told.slice(0, close ? 0 : 1),
-      ...(again ? ["Judge by", again] : []),
+      ...(again ? [make("span.by", "Judge by ", again)] : []),
       ...told.slice(close ? 0 : 1),
       ...(found ? [`So far: ${sentence(found)}`] : []),
       ...(failed.some((c) => c.id === reason_check) ? [] : others(meta, failed)),
