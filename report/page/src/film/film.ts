@@ -11,6 +11,12 @@ const apart = 2 * perSecond; // frames from one key frame to the next
 const codecs = { V_VP9: "vp09.00.31.08", V_VP8: "vp8" };
 const most = 4; // frames that wait for the encoder
 
+interface Shot {
+  page: Page;
+  view: View;
+  rate: number;
+}
+
 /** Codec that this browser encodes, as WebM names it. */
 async function codec(): Promise<[name: string, config: VideoEncoderConfig]> {
   for (const [name, codec] of Object.entries(codecs)) {
@@ -46,7 +52,7 @@ export async function film(page: Page, view: View, made: (share: number) => bool
       if (wrong.length) throw wrong[0];
       if (!made(k / count)) return null;
       const t = Math.min(from + (k * rate) / perSecond, to);
-      draw(on, page, view, t);
+      draw(on, { page, view, rate }, t);
       const frame = new VideoFrame(on.canvas, { timestamp: Math.round((k * 1e6) / perSecond) });
       encoder.encode(frame, { keyFrame: k % apart === 0 });
       frame.close();
@@ -61,8 +67,8 @@ export async function film(page: Page, view: View, made: (share: number) => bool
   return webm(name, width, height, (1000 * count) / perSecond, frames);
 }
 
-function draw(on: CanvasRenderingContext2D, page: Page, view: View, t: number): void {
-  const { ink, state, recording } = page;
+function draw(on: CanvasRenderingContext2D, { page, view, rate }: Shot, t: number): void {
+  const { ink, recording } = page;
   on.drawImage(view.picture(t, width, height), 0, 0);
   const writer = new Writer(on, ink);
   let y = margin;
@@ -77,7 +83,7 @@ function draw(on: CanvasRenderingContext2D, page: Page, view: View, t: number): 
   }
   const foot = height - margin - 24;
   writer.write(`${recording.meta.name} · gaitlab`, [margin, foot], 20, { colour: ink.muted });
-  const clock = `${t.toFixed(2)} s${state.rate === 1 ? "" : `, ${state.rate}×`}`;
+  const clock = `${t.toFixed(2)} s${rate === 1 ? "" : `, ${rate}×`}`;
   writer.write(clock, [width - margin - writer.width(clock, 26, true), foot - 4], 26, { bold: true });
   const legend = document.getElementById("legend-load")!;
   if (!legend.hidden) ramp(on, writer, legend.textContent.trim(), foot - 38);
