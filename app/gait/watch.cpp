@@ -34,6 +34,8 @@ constexpr const char* kStamp = "stamp.svg";  // identifies the run in the folder
                                              // (report/page/src/watch.ts)
 constexpr const char* kRead = ".read";       // list of the files that the run has read, written by its process
 constexpr const char* kNext = ".next";       // folder of a run that has not ended
+constexpr const char* kWrong = ".wrong";     // message of a run without a page, written by its process
+constexpr const char* kError = "error.svg";  // this message as a picture, which the page shows
 constexpr std::uintmax_t kMostRead = 1 << 26;
 
 struct WatchArguments : ScenarioArguments {
@@ -44,7 +46,7 @@ struct WatchArguments : ScenarioArguments {
 /// True for a file of a run that has not ended.
 bool is_unfinished(const fs::path& file) {
   const fs::path name = file.filename();
-  return name == kNext || name == kRead || is_part_file(file);
+  return name == kNext || name == kRead || name == kWrong || is_part_file(file);
 }
 
 /// Number of the run in a folder of `gaitlab watch`; 0 in a new folder, or if there is no page yet. Nothing for other folders.
@@ -83,30 +85,39 @@ int wait_for_child(pid_t child) {
   return status;
 }
 
-/// Runs the scenario into the folder `out`, in another process, so that a recompiled plugin is loaded again and a plugin that
-/// crashes ends only that process. Returns the exit code of `gaitlab run`.
-int run_apart(const WatchArguments& a, const fs::path& out, const fs::path& told) {
+/// Runs the scenario into the folder kNext of `folder`, in another process, so that a recompiled plugin is loaded again and a
+/// plugin that crashes ends only that process. Returns the exit code of `gaitlab run`.
+int run_apart(const WatchArguments& a, const fs::path& folder) {
   (void)std::fflush(stdout);
   const pid_t child = begin_child([&] {
     const FilesRead reading;
     RunArguments arguments;
     const ScenarioArguments& scenario = a;
     static_cast<ScenarioArguments&>(arguments) = scenario;
-    arguments.out = out.string();
+    arguments.out = (folder / kNext).string();
     arguments.shown = a.shown;
     arguments.names_files = false;
-    int code = guarded([&] { return run(arguments); });
+    int code = guarded([&] {
+      try {
+        return run(arguments);
+      } catch (const std::exception& error) {
+        (void)guarded([&] { return write_file(folder / kWrong, error.what()), 0; });
+        throw;
+      }
+    });
     std::string all;  // records that end with a NUL, which a path cannot contain
     for (const FileRead& one : reading.files())
       all += fmt::format("{} {} {} {}", one.stamp.modified, one.stamp.size, one.stamp.inode, one.path.string()) + '\0';
-    const int wrote = guarded([&] { return write_file(told, all), 0; });
+    const int wrote = guarded([&] { return write_file(folder / kRead, all), 0; });
     if (std::fflush(stdout) != 0 || wrote != 0) code = std::max(code, 1);
     return code;
   });
   if (child < 0) throw RunError(fmt::format("no process can be started: {}", std::generic_category().message(errno)));
   const int status = wait_for_child(child);
   if (WIFEXITED(status)) return WEXITSTATUS(status);
-  if (!stopped()) say(a.file, "error", fmt::format("the run crashed (signal {})", WTERMSIG(status)));
+  const std::string crash = fmt::format("the run crashed (signal {})", WTERMSIG(status));
+  if (!stopped()) say(a.file, "error", crash);
+  write_file(folder / kWrong, crash);
   return 1;
 }
 
@@ -143,6 +154,15 @@ void publish(const fs::path& made, const fs::path& folder, int run) {
   }
   write_file(folder / kPageFile, report::watched_page(read_file(made / kPageFile, kMostHtml), run));
   write_file(folder / kStamp, report::stamp(run, false));
+  fs::remove(folder / kError, error);
+}
+
+/// Shows an error on the page of the run before it.
+void publish_error(const fs::path& folder, int run) {
+  constexpr std::uintmax_t kMostText = 1 << 20;
+  std::error_code none;
+  if (fs::exists(folder / kWrong, none)) write_file(folder / kError, report::picture_of(read_file(folder / kWrong, kMostText)));
+  write_file(folder / kStamp, report::stamp(run, true));
 }
 
 /// Waits until one of the files has changed, and until it is not being written any more. Returns early if stopped.
@@ -169,16 +189,17 @@ int renew(const WatchArguments& a, const fs::path& folder, int shown) {
   std::error_code none;
   fs::remove_all(made, none);
   fs::create_directories(folder, none);
-  const int code = run_apart(a, made, folder / kRead);
+  const int code = run_apart(a, folder);
   const bool made_page = code != 2 && !stopped() && fs::exists(made / kPageFile, none);
   (void)guarded([&] {
     if (made_page) publish(made, folder, shown + 1);
-    if (!made_page && !stopped()) write_file(folder / kStamp, report::stamp(shown, true));
+    if (!made_page && !stopped()) publish_error(folder, shown);
     shown += made_page ? 1 : 0;
     if (made_page && !a.quiet) print_page(folder / kPageFile);
     return 0;
   });
   fs::remove_all(made, none);
+  fs::remove(folder / kWrong, none);
   return shown;
 }
 

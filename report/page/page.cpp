@@ -5,8 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <stdexcept>
 #include <utility>
+#include <vector>
+
+#include "report/plot/svg.h"
 
 namespace gaitlab::report {
 
@@ -77,6 +81,29 @@ constexpr std::string_view kStampStart = R"(<svg xmlns="http://www.w3.org/2000/s
 
 std::string stamp(int run, bool error) {
   return fmt::format("{}{}\" height=\"{}\"/>\n", kStampStart, std::max(run, 1), error ? 2 : 1);
+}
+
+std::string picture_of(std::string_view message) {
+  constexpr std::size_t kWidest = 110, kMost = 20;  // characters, lines
+  constexpr double kLine = 18, kCharacter = 7.9;    // px
+  std::vector<std::string> lines;
+  std::size_t widest = 0;
+  for (std::size_t at = 0; at < message.size() && lines.size() < kMost;) {
+    std::size_t end = std::min(message.find('\n', at), message.size());
+    if (end - at > kWidest) {
+      const std::size_t blank = message.rfind(' ', at + kWidest);
+      end = blank != std::string_view::npos && blank > at ? blank : std::min(end, at + 4 * kWidest);
+    }
+    lines.emplace_back(message.substr(at, end - at));
+    widest = std::max(widest, end - at);
+    at = end < message.size() && (message[end] == ' ' || message[end] == '\n') ? end + 1 : end;
+  }
+  std::string text;
+  for (std::size_t k = 0; k < lines.size(); ++k)
+    text += fmt::format("<text y=\"{}\">{}</text>\n", kLine * static_cast<double>(k) + 13, xml_escaped(lines[k]));
+  return fmt::format(
+      "{}{}\" height=\"{}\" font-family=\"monospace\" font-size=\"13\" fill=\"#b3261e\" xml:space=\"preserve\">\n{}</svg>\n",
+      kStampStart, std::ceil(kCharacter * static_cast<double>(widest)), kLine * static_cast<double>(lines.size()), text);
 }
 
 std::optional<int> stamped(std::string_view text) {

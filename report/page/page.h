@@ -21,6 +21,8 @@ std::string watched_page(std::string page, int run);
 /// The picture stamp.svg beside a watched page: its width is the number of the newest run, and its height is 2 if the scenario
 /// has an error since, otherwise 1.
 std::string stamp(int run, bool error);
+/// The picture error.svg beside a watched page: a message in lines of at most 110 characters, at most 20 of them.
+std::string picture_of(std::string_view message);
 /// Number of the run in a text of stamp(); nothing for other texts.
 std::optional<int> stamped(std::string_view text);
 

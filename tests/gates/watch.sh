@@ -53,11 +53,12 @@ echo 'duration: -1' >>two.yaml
 wait_for "$watcher" "run 4" have_runs 4
 is_height 2 && (($(number) == first + 2)) || bad "an error: stamp $(<seen/stamp.svg)"
 grep -q "two.yaml:7:" err || bad "the error is not printed"
+grep -q ">two.yaml:7:.*</text>" seen/error.svg || bad "the error is not shown: $(<seen/error.svg)"
 sed -i '$d' two.yaml
 # An editor that writes a new file and renames it.
 cp -- two.yaml saved && sed -i 's/0.5/0.4/' saved && mv -- saved two.yaml
 wait_for "$watcher" "run 5" have_runs 5
-is_height 1 && in_page || bad "mended: stamp $(<seen/stamp.svg)"
+is_height 1 && in_page && [[ ! -e seen/error.svg ]] || bad "mended: stamp $(<seen/stamp.svg), $(ls seen)"
 
 kill -TERM "$watcher" # (a background process of a script ignores SIGINT)
 code=0
