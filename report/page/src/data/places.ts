@@ -9,6 +9,13 @@ export interface Measured {
   readonly loads: Loads;
 }
 
+/** Share of the weight, and of the mean load of a foot, that a foot on the ground bears at least. */
+const least = { weight: 0.02, mean: 0.2 };
+export const many = ({ feet }: Meta): boolean => feet.length * least.weight > least.mean;
+/** Least load of a foot on the ground, N. With many feet, each bears a small share of the weight. */
+export const leastLoad = (meta: Meta): number =>
+  many(meta) ? (least.mean * meta.weight) / meta.feet.length : least.weight * meta.weight;
+
 export const dockName = (module: string): string => `${module}'s dock`;
 
 /** Name of a part in texts: for a dock `m5's dock`, for a foot the name of its leg, for other parts their own name. */

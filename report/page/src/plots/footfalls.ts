@@ -6,13 +6,13 @@ import { element, leaveOut } from "../dom";
 import type { Meta } from "../data/format";
 import { keys } from "../keyline";
 import type { Desk, Panel } from "../panel";
+import { leastLoad, many } from "../data/places";
 import type { Recording } from "../data/recording";
 import { TimeRows } from "./time_rows";
 
 const left = 116;
 const right = 46;
 const foot = 22;
-const threshold = 0.02; // least load of a foot on the ground, as a share of the robot's weight
 
 interface Foot {
   name: string;
@@ -31,7 +31,10 @@ export class Footfalls implements Panel {
 
   constructor(private readonly desk: Desk) {
     const { recording, ghost } = desk;
-    this.on = threshold * recording.meta.weight;
+    this.on = leastLoad(recording.meta);
+    if (many(recording.meta)) {
+      element("foot-note").textContent = "load above a fifth of the mean load of a foot; right: duty factor";
+    }
     this.feet = feetOf(recording, this.on);
     this.most = Math.max(1e-9, ...this.feet.map((f) => f.load.reduce((a, b) => Math.max(a, b), 0)));
     this.time = new TimeRows(this.host, desk, left, right);
@@ -101,7 +104,7 @@ export class Footfalls implements Panel {
     this.blocks(pen, load, this.on, edges, top, upper);
     if (second) {
       pen.fillStyle = ink.purple;
-      this.blocks(pen, second, threshold * ghost!.recording.meta.weight, edges, top + upper + 1, tall - upper - 1);
+      this.blocks(pen, second, leastLoad(ghost!.recording.meta), edges, top + upper + 1, tall - upper - 1);
     }
   }
 

@@ -5,6 +5,7 @@ import { element, leaveOut } from "../dom";
 import { keys } from "../keyline";
 import type { Desk, Panel } from "../panel";
 import type { Span } from "../data/recording";
+import { leastLoad } from "../data/places";
 
 export class Path implements Panel {
   private readonly board: Board | null = null;
@@ -54,11 +55,11 @@ export class Path implements Panel {
 
   // Least and largest x, and least and largest y, of paths and footprints, m.
   private reach(): [number, number, number, number] {
-    const { weight } = this.desk.recording.meta;
+    const on = leastLoad(this.desk.recording.meta);
     const reach: [number, number, number, number] = [Infinity, -Infinity, Infinity, -Infinity];
     const see = (a: Values, b: Values, only?: Values) => {
       for (let i = 0; i < a.length; i++) {
-        if (only && only[i] <= 0.02 * weight) continue;
+        if (only && only[i] <= on) continue;
         reach[0] = Math.min(reach[0], a[i]);
         reach[1] = Math.max(reach[1], a[i]);
         reach[2] = Math.min(reach[2], b[i]);
@@ -106,11 +107,12 @@ export class Path implements Panel {
     const { ink, recording } = this.desk;
     const { X, Y } = this.scale!;
     const step = Math.max(1, Math.floor(recording.rows / 700));
+    const on = leastLoad(recording.meta);
     pen.fillStyle = ink.green;
     pen.globalAlpha = 0.12;
     for (const [fz, px, py] of this.prints) {
       for (let i = 0; i < recording.rows; i += step) {
-        if (fz[i] > 0.02 * recording.meta.weight) pen.fillRect(X(px[i]) - 1.5, Y(py[i]) - 1.5, 3, 3);
+        if (fz[i] > on) pen.fillRect(X(px[i]) - 1.5, Y(py[i]) - 1.5, 3, 3);
       }
     }
     pen.globalAlpha = 1;

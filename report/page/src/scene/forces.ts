@@ -15,6 +15,7 @@ import {
 } from "three";
 import type { Values } from "../data/channels";
 import type { Theme } from "../colour";
+import { leastLoad } from "../data/places";
 import type { Recording } from "../data/recording";
 import { copies, unseen } from "./shapes";
 
@@ -105,7 +106,7 @@ export class Forces {
   private place(n: number, force: Vector3, point: Vector3): void {
     const { unit } = this;
     const newtons = force.length();
-    const shown = newtons > 0.005 * this.recording.meta.weight;
+    const shown = newtons > leastLoad(this.recording.meta) / 4;
     const length = newtons * this.scale;
     const tip = Math.min(0.38 * unit, 0.5 * length);
     const wide = Math.max(tip / 0.38, 0.3 * unit);
