@@ -6,7 +6,6 @@ program prints them.
 import json
 import os
 import re
-import shutil
 import subprocess
 import sys
 import tempfile
@@ -74,6 +73,13 @@ def simulate(program, name, folder):
     return run.stdout
 
 
+def in_folder(page, folder):
+    """The page, whose commands name the folder of the run that the command of HEAD repeats."""
+    head = '<html lang="en"'
+    assert page.count(head) == 1
+    return page.replace(head, head + ' data-folder="{}"'.format(folder))
+
+
 def draw(program, folder, target):
     """Side views at up to three instants of the last period of a run, or of its last two seconds: as many as one picture has room for."""
     with open(os.path.join(folder, "summary.json"), encoding="utf-8") as file:
@@ -98,7 +104,12 @@ def write(program, source, reports):
         with tempfile.TemporaryDirectory(dir=os.path.dirname(source)) as work:
             folder = os.path.join(work, name)
             summary = simulate(program, name, folder)
-            shutil.copyfile(os.path.join(folder, "report.html"), os.path.join(reports, name + ".html"))
+            with open(os.path.join(folder, "summary.json"), encoding="utf-8") as file:
+                runs = "runs/" + json.load(file)["name"]
+            with open(os.path.join(folder, "report.html"), encoding="utf-8") as file:
+                page = file.read()
+            with open(os.path.join(reports, name + ".html"), "w", encoding="utf-8") as file:
+                file.write(in_folder(page, runs))
             draw(program, folder, os.path.join(pictures, name + ".svg"))
             with open(os.path.join(folder, "verdict.json"), encoding="utf-8") as file:
                 word = json.load(file)["verdict"].replace(" ", "-")

@@ -4,9 +4,11 @@ import type { Meta } from "./format";
 
 /**
  * Folder of the page, quoted for a shell. If the page was renamed or is not a local file, it is the name of the folder,
- * or the word FOLDER if the page does not know it.
+ * or the word FOLDER if the page does not know it. A page of the gallery has the folder into which its scenario runs.
  */
 export function folder({ overlay }: Meta): string {
+  const { folder: known } = document.documentElement.dataset;
+  if (known) return word(known);
   const [, path] = /^(.*)\/(?:report|compare)\.html$/.exec(decodeURIComponent(location.pathname)) ?? [];
   if (location.protocol !== "file:" || !path) return word(overlay?.folders[0] ?? "") || "FOLDER";
   return word(path);

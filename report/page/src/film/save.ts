@@ -37,6 +37,8 @@ export function saves(page: Page): void {
 async function save(page: Page, ending: string, made: () => Promise<Blob | null>): Promise<void> {
   const wrong = element("unsaved");
   wrong.hidden = true;
+  const picture = element<HTMLButtonElement>("card");
+  picture.disabled = true;
   page.play(false);
   page.stage.freeze(true);
   try {
@@ -46,6 +48,7 @@ async function save(page: Page, ending: string, made: () => Promise<Blob | null>
     wrong.textContent = `The ${ending} file could not be made: ${e instanceof Error ? e.message : String(e)}.`;
     wrong.hidden = false;
   }
+  picture.disabled = false;
   page.stage.freeze(false);
   page.stage.view?.resize();
   page.seek(page.state.t);
