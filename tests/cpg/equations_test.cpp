@@ -58,7 +58,7 @@ double value(const std::string& text) { return values(only(text))[0]; }
 TEST(EquationValues, FunctionsAndOperators) {
   const double x = 0.7;
   const double y = -1.3;
-  const std::array<std::pair<const char*, double>, 40> cases{{
+  const std::array<std::pair<const char*, double>, 41> cases{{
       {"sin(0.7)", std::sin(x)},
       {"cos(0.7)", std::cos(x)},
       {"tan(0.7)", std::tan(x)},
@@ -73,6 +73,7 @@ TEST(EquationValues, FunctionsAndOperators) {
       {"if(1 < 2, 3, 4)", 3},
       {"if(2 < 1, 3, 4)", 4},
       {"if(0, 1/0, 4)", 4},  // the value that is not selected has no effect
+      {"mod(-1.3, 1) + 10*mod(0.7, 2)", 7.7},
       {"pi", std::numbers::pi},
       {"t", 0.5},
       {"1 + 2*3", 7},
