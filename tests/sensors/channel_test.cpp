@@ -55,6 +55,21 @@ double deviation(const std::vector<double>& all) {
   return std::sqrt(squares / n - sum / n * (sum / n));
 }
 
+TEST(Channel, WalksOnWhileSamplesAreLost) {
+  ChannelKeys whole = keys(), lossy = keys();
+  whole.walk = lossy.walk = 0.2;
+  lossy.lost = 0.5;
+  const std::vector<double> all = zeros(channel(whole), 400);
+  const std::vector<double> some = zeros(channel(lossy), 400);
+  std::size_t received = 0;
+  for (std::size_t k = 1; k < all.size(); ++k) {
+    if (some[k] == some[k - 1]) continue;  // lost
+    EXPECT_EQ(some[k], all[k]) << k;
+    ++received;
+  }
+  EXPECT_NEAR(static_cast<double>(received), 200, 40) << "four standard errors, 4 sqrt(400 / 4)";
+}
+
 TEST(Channel, GivesTheTrueValueByDefault) {
   const std::vector<double> y = values(channel(keys()), 50, curve);
   for (std::int64_t k = 0; k < 50; ++k) EXPECT_EQ(y[static_cast<std::size_t>(k)], curve(k)) << k;
