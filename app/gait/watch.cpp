@@ -116,8 +116,9 @@ int run_apart(const WatchArguments& a, const fs::path& folder) {
   const int status = wait_for_child(child);
   if (WIFEXITED(status)) return WEXITSTATUS(status);
   const std::string crash = fmt::format("the run crashed (signal {})", WTERMSIG(status));
-  if (!stopped()) say(a.file, "error", crash);
-  write_file(folder / kWrong, crash);
+  if (stopped()) return 1;
+  say(a.file, "error", crash);
+  (void)guarded([&] { return write_file(folder / kWrong, crash), 0; });
   return 1;
 }
 
@@ -154,14 +155,17 @@ void publish(const fs::path& made, const fs::path& folder, int run) {
   }
   write_file(folder / kPageFile, report::watched_page(read_file(made / kPageFile, kMostHtml), run));
   write_file(folder / kStamp, report::stamp(run, false));
-  fs::remove(folder / kError, error);
+  // The file stays: a page may look for it after a look at the stamp before.
+  if (fs::exists(folder / kError, error)) write_file(folder / kError, report::picture_of(""));
 }
 
 /// Shows an error on the page of the run before it.
 void publish_error(const fs::path& folder, int run) {
   constexpr std::uintmax_t kMostText = 1 << 20;
   std::error_code none;
-  if (fs::exists(folder / kWrong, none)) write_file(folder / kError, report::picture_of(read_file(folder / kWrong, kMostText)));
+  const bool told = fs::exists(folder / kWrong, none);
+  write_file(folder / kError,
+             report::picture_of(told ? read_file(folder / kWrong, kMostText) : "The terminal shows the message."));
   write_file(folder / kStamp, report::stamp(run, true));
 }
 
@@ -188,6 +192,7 @@ int renew(const WatchArguments& a, const fs::path& folder, int shown) {
   const fs::path made = folder / kNext;
   std::error_code none;
   fs::remove_all(made, none);
+  fs::remove(folder / kWrong, none);  // of a watch that was killed
   fs::create_directories(folder, none);
   const int code = run_apart(a, folder);
   const bool made_page = code != 2 && !stopped() && fs::exists(made / kPageFile, none);

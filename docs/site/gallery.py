@@ -76,7 +76,8 @@ def simulate(program, name, folder):
 def in_folder(page, folder):
     """The page, whose commands name the folder of the run that the command of HEAD repeats."""
     head = '<html lang="en"'
-    assert page.count(head) == 1
+    if page.count(head) != 1:
+        sys.exit("{}: the page has not one {}".format(folder, head))
     return page.replace(head, head + ' data-folder="{}"'.format(folder))
 
 

@@ -763,8 +763,6 @@ on("strayed: what left its band first, when, how far", pages.strayed, flat, asyn
   assert.ok(await page.isVisible("#drift canvas"));
 });
 
-// The bytes that report/page/page_data.cpp writes for these values, by hand from the rule: differences, zigzag, LEB128.
-// 0 1 -1 64 -64 8191 -8192 1000000: differences 0 1 -2 65 -128 8255 -16383 1008192, zigzag 0 2 3 130 255 16510 32765 2016384.
 /** Clicks a button that saves a file, and returns the name and the bytes of the file. */
 const saved = async (page, button) => {
   const [download] = await Promise.all([page.waitForEvent("download"), page.click(button)]);
@@ -831,6 +829,28 @@ on("infeasible: the picture of a message; a film that is stopped leaves no file"
   assert.ok(await page.isHidden(".still"));
 });
 
+on("current: with more than ten feet, a foot stands above a share of the mean load", pages.current, flat, async (page, meta) => {
+  assert.ok(meta.feet.length > 10, String(meta.feet.length));
+  assert.match(await page.textContent("#foot-note"), /above a fifth of the mean load/);
+});
+
+if (pages.open) {
+  // docs/site/gallery.py writes this attribute.
+  const folder = mkdtempSync(join(tmpdir(), "gallery-")), copy = join(folder, "open.html");
+  writeFileSync(copy, readFileSync(pages.open, "utf8").replace('<html lang="en"', '<html lang="en" data-folder="runs/here"'));
+  after(() => rmSync(folder, { recursive: true }));
+  on("gallery: commands name the folder that the page states", copy, flat, async (page) => {
+    assert.match(await page.textContent("#foot-text"), /gaitlab rerun runs\/here/);
+  });
+}
+
+on("feasible: with ten feet or fewer, it stands above a share of the weight", pages.feasible, flat, async (page, meta) => {
+  assert.ok(meta.feet.length <= 10, String(meta.feet.length));
+  assert.match(await page.textContent("#foot-note"), /above 2 % of the weight/);
+});
+
+// The bytes that report/page/page_data.cpp writes for these values, by hand from the rule: differences, zigzag, LEB128.
+// 0 1 -1 64 -64 8191 -8192 1000000: differences 0 1 -2 65 -128 8255 -16383 1008192, zigzag 0 2 3 130 255 16510 32765 2016384.
 on("unpacks the bytes that C++ packs", Object.values(pages)[0], flat, async (page) => {
   const bytes = [0x00, 0x02, 0x03, 0x82, 0x01, 0xff, 0x01, 0xfe, 0x80, 0x01, 0xfd, 0xff, 0x01, 0x80, 0x89, 0x7b];
   const unpacked = (channels, list) => page.evaluate(([c, b]) => [...window.gaitlab.unpack(c, Uint8Array.from(b))].map(([name, values]) => [name, [...values]]), [channels, list]);

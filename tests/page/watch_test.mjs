@@ -43,12 +43,12 @@ const good = readFileSync(scenario, "utf8"), second = await run();
 writeFileSync(scenario, good.replace(/^duration:.*$/m, "duration: -1"));
 await page.waitForSelector(".watch-note:not([hidden])");
 assert.equal(await run(), second);
-// The message is a picture of one line; the next error replaces it.
-const shown = (wide) => page.waitForFunction((than) => document.querySelector(".watch-note img").naturalWidth > than, wide);
-await shown(200);
-const narrow = await page.evaluate(() => document.querySelector(".watch-note img").naturalWidth);
-writeFileSync(scenario, good.replace(/^duration:.*$/m, "duration: -123456789012"));
-await shown(narrow);
+// The message is a picture; that of two errors replaces it, and has more lines for any length of the path.
+const shown = (height) => page.waitForFunction((than) => document.querySelector(".watch-note img").naturalHeight > than, height);
+await shown(0);
+const low = await page.evaluate(() => document.querySelector(".watch-note img").naturalHeight);
+writeFileSync(scenario, `${good.replace(/^duration:.*$/m, "duration: -1")}nonsense: 1\n`);
+await shown(low);
 await page.evaluate(() => scrollTo(0, document.body.scrollHeight));
 assert.equal((await page.locator(".watch-note").boundingBox()).y, 0, "the error stays in view");
 writeFileSync(scenario, `${good}\n`);

@@ -13,7 +13,7 @@ export function card(page: Page, view: View): Promise<Blob> {
   on.fillRect(0, 0, left, height);
   const writer = new Writer(on, ink);
   const room = left - 2 * margin;
-  const cards = wordsOf(document);
+  const cards = wordsOf();
   const [large, small] = cards.length > 1 ? [28, 17] : [40, 21];
   let y = writer.write(recording.meta.name, [margin, margin], 22, { colour: ink.muted, width: room }) + 14;
   for (const { colour, whose, said, reason, facts } of cards) {

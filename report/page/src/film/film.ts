@@ -72,7 +72,7 @@ function draw(on: CanvasRenderingContext2D, { page, view, rate }: Shot, t: numbe
   on.drawImage(view.picture(t, width, height), 0, 0);
   const writer = new Writer(on, ink);
   let y = margin;
-  for (const { colour, whose, said } of wordsOf(document)) {
+  for (const { colour, whose, said } of wordsOf()) {
     const words = `${whose && `${whose}: `}${said}`;
     on.fillStyle = ink.panel;
     on.fillRect(margin, y, Math.min(writer.width(words, 30, true) + 40, width - 2 * margin), 52);

@@ -10,7 +10,8 @@ export interface Words {
   facts: [name: string, value: string][];
 }
 
-export function wordsOf(document: Document): Words[] {
+/** Words of the page's cards, without commands. */
+export function wordsOf(): Words[] {
   return [...document.querySelectorAll<HTMLElement>(".verdict")].map((card) => {
     const text = (part: string) => {
       const of = card.querySelector(`.${part}`)!.cloneNode(true) as HTMLElement;
