@@ -149,9 +149,12 @@ void RcServo::follow(std::size_t joint, double goal, double period, Joint& x) co
   double speed = way / period;
   if (most > 0) speed = clamp(speed, most);
   if (steepest > 0) {
-    // From the speed v, samples of v T, (v - a T) T ... add up to v^2 / 2a + v T / 2.
+    // From the speed v the goal stops after samples of v T, (v - a T) T, ... down to 0: with v = (k + f) a T, 0 <= f < 1, this
+    // is a T^2 (k + 1) (k / 2 + f), thus v / a T = k / 2 + way / (a T^2 (k + 1)).
     const double change = steepest * period;
-    const double stops = change / 2 * (std::sqrt(1 + 8 * std::abs(way) / (change * period)) - 1);
+    const double samples = std::abs(way) / (change * period);
+    const double whole = std::floor((std::sqrt(1 + 8 * samples) - 1) / 2);
+    const double stops = change * (whole / 2 + samples / (whole + 1));
     speed = x.speed + clamp(clamp(speed, stops) - x.speed, change);
   }
   x.speed = speed;

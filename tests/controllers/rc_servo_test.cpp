@@ -131,6 +131,32 @@ TEST(RcServo, ProfileIsThatOfUniformAcceleration) {
   EXPECT_EQ(steep(2), 0.25) << "16 rad/s^2 for a sample of 1/8 s";
 }
 
+/// The profile stops at every goal, also at those that are no whole number of samples of its acceleration.
+TEST(RcServo, ProfileStopsAtEveryGoal) {
+  constexpr double kPeriod = 0.125;
+  constexpr double kSteepest = 16;
+  RcServo::Settings settings = with_gain(1);
+  settings.acceleration_limit.common = kSteepest;
+  for (int n = 1; n <= 40; ++n) {
+    const double goal = 0.137 * n;
+    for (const double side : {-1.0, 1.0}) {
+      FedServo servo(settings, kPeriod);
+      double last = 0;
+      double speed = 0;
+      for (int k = 0; k < 60; ++k) {
+        const double at = side * servo(side * goal);
+        const double now = (at - last) / kPeriod;
+        EXPECT_GE(at, last - 1e-12) << "goal " << goal << ", sample " << k;
+        EXPECT_LE(at, goal + 1e-12) << "goal " << goal << ", sample " << k;
+        EXPECT_LE(std::abs(now - speed), kSteepest * kPeriod * (1 + 1e-9)) << "goal " << goal << ", sample " << k;
+        last = at;
+        speed = now;
+      }
+      EXPECT_NEAR(last, goal, 1e-12);
+    }
+  }
+}
+
 TEST(RcServo, UnitsOfTheMakers) {
   RcServo::Settings settings;
   settings.P.common = 100;
