@@ -131,7 +131,7 @@ TEST(RcServo, ProfileIsThatOfUniformAcceleration) {
   EXPECT_EQ(steep(2), 0.25) << "16 rad/s^2 for a sample of 1/8 s";
 }
 
-/// The profile stops at every goal, also at those that are no whole number of samples of its acceleration.
+/// The profile stops at every goal, also between those that a whole number of samples of its acceleration reaches.
 TEST(RcServo, ProfileStopsAtEveryGoal) {
   constexpr double kPeriod = 0.125;
   constexpr double kSteepest = 16;
