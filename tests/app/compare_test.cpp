@@ -86,6 +86,16 @@ TEST_F(CompareCommand, SettingsNumbersAndWorstColumns) {
                 "first column to diverge: m0/active angle at t = 0.5 s\n");
 }
 
+/// A percentage has the sign of the change, also of a number below 0.
+TEST_F(CompareCommand, APercentageHasTheSignOfTheChange) {
+  make_run("a", "t\n0\n", R"({"distance": 2, "displacement": [-0.5, -0.5]})");
+  make_run("b", "t\n0\n", R"({"distance": 1, "displacement": [-0.25, -1]})");
+  const std::string out = compare("a b").out;
+  for (const char* const row :
+       {" 2                  1  -50 %\n", " -0.5              -0.25  +50 %\n", " -0.5                 -1  -100 %\n"})
+    EXPECT_TRUE(contains(out, row)) << out;
+}
+
 /// The output names a joint if both runs give it the same name, and `--columns` accepts this name.
 TEST_F(CompareCommand, NamesOfJoints) {
   const std::string trace = "t,joint.0.angle,joint.1.angle\n0,0,0\n0.5,1,1\n";

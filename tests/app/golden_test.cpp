@@ -94,6 +94,21 @@ TEST_F(GoldenCommand, FailsWhatIsInfeasible) {
   EXPECT_EQ(call("test good.yaml --fail-infeasible").code, 4);
 }
 
+/// A regression beside an infeasible gait is a regression.
+TEST_F(GoldenCommand, ARegressionPrecedesAnInfeasibleGait) {
+  std::string walk = kGait + "physics: {engine: articulated, accuracy: 0.001}\n";
+  walk.replace(walk.find("duration: 0.1"), 13, "duration: 3");
+  walk.replace(walk.find("amplitude: 0.6"), 14, "amplitude: 0.1");
+  folder.write("walk.yaml", walk);
+  ASSERT_EQ(call("approve walk.yaml --reason 'a whole gait'").code, 0);
+  folder.write("walk.yaml", walk + "limits: {tracking_error: 1e-6}\n");
+  EXPECT_EQ(call("test walk.yaml good.yaml --fail-infeasible").code, 3);
+  folder.write("good.yaml", kCaterpillar + "actuator: {Kt: 0.0039895}\n");
+  const Result both = call("test walk.yaml good.yaml --fail-infeasible");
+  EXPECT_EQ(both.code, 4);
+  expect_contains(both.out, "0 passed, 1 failed, 1 infeasible\n");
+}
+
 TEST_F(GoldenCommand, AnotherMotorIsARegression) {
   folder.write("good.yaml", kCaterpillar + "actuator: {Kt: 0.0039895}\n");
   const Result result = call("test good.yaml --junit result.xml");

@@ -255,6 +255,29 @@ TEST(Legs, FeetOnTheGroundMoveAgainstTheBody) {
   }
 }
 
+/// Leads of six and four legs, as the manual names them: waves go from rear to front, and sides are half a cycle apart.
+TEST(Legs, PhasesAreThoseOfTheManual) {
+  const RobotInfo six = robot_of(kHexapod);  // front, middle, rear; left and right in turn
+  const RobotInfo four = info(quadruped());
+  using Phases = std::vector<double>;
+  const auto expect = [](const RobotInfo& robot, Gait gait, const Phases& expected) {
+    const Phases found = phases_of(gait, robot.legs);
+    ASSERT_EQ(found.size(), expected.size());
+    for (std::size_t l = 0; l < found.size(); ++l)
+      EXPECT_NEAR(found[l], expected[l], 1e-12) << kGaitNames[static_cast<std::size_t>(gait)] << ", " << robot.legs[l].name;
+  };
+  // A lead of 0.75 is a delay of 0.25 behind the leg to the rear.
+  expect(six, Gait::ripple, {0.5, 0, 0.75, 0.25, 0, 0.5});
+  expect(six, Gait::wave, {2.0 / 3, 1.0 / 6, 5.0 / 6, 1.0 / 3, 0, 0.5});
+  expect(six, Gait::tripod, {0, 0.5, 0.5, 0, 0, 0.5});
+  expect(four, Gait::ripple, {0.75, 0.25, 0, 0.5});
+  expect(four, Gait::walk, {0.75, 0.25, 0, 0.5});
+  expect(four, Gait::trot, {0, 0.5, 0.5, 0});
+  expect(four, Gait::pace, {0, 0.5, 0, 0.5});
+  expect(four, Gait::bound, {0, 0, 0.5, 0.5});
+  expect(four, Gait::gallop, {0, 0.1, 0.5, 0.6});
+}
+
 TEST(Legs, StartsInItsStanceAndRepeats) {
   const Robot robot = quadruped();
   const RobotInfo known = info(robot);

@@ -164,6 +164,28 @@ TEST_F(Bench, TheDutySeparatesTheGainFromTheTorque) {
   for (const std::string& limit : findings(both, logs, keys)) EXPECT_FALSE(contains(limit, "angles alone")) << limit;
 }
 
+/// The interval of three logs is that of fits to two of them each: Student's t of two degrees of freedom is 4.303.
+TEST_F(Bench, TheIntervalIsThatOfFitsWithoutALog) {
+  const std::vector<std::string> names{"slow.csv", "fast.csv", "middle.csv"};
+  write_log(names[0], 2, 2);
+  write_log(names[1], 5, 2);
+  write_log(names[2], 3.5, 2);
+  write_bench(1.2, 0.3);  // wrong friction, so that each log asks for another torque
+  const auto fit = [&](const std::vector<std::string>& some) {
+    const std::vector<BenchLog> logs = bench(some);
+    return identified(logs, fitted_keys(logs[0].scenario, {"actuator.stall_torque"})).keys[0];
+  };
+  const IdentifiedKey all = fit(names);
+  const std::array changes{fit({names[1], names[2]}).value - all.value, fit({names[0], names[2]}).value - all.value,
+                           fit({names[0], names[1]}).value - all.value};
+  const double mean = (changes[0] + changes[1] + changes[2]) / 3;
+  double squares = 0;
+  for (const double change : changes) squares += (change - mean) * (change - mean);
+  const double half = 4.303 * std::sqrt(2.0 / 3 * squares);
+  // The program has a step of second-order models where this test has fits, and rounds to the digits of the interval.
+  EXPECT_NEAR((all.high - all.low) / 2, half, 0.15 * half);
+}
+
 TEST_F(Bench, AKeyThatEarnsNothingStays) {
   write_log("slow.csv", 2, 2);
   write_log("fast.csv", 5, 2);

@@ -43,6 +43,17 @@ TEST_P(AsBuiltOf, FactorsActAsOtherDrawings) {
   }
 }
 
+// The friction that is drawn for a module is that under its contact elements, and acts as another ground.
+TEST(AsBuilt, FootFrictionIsThatOfItsModule) {
+  const Scenario drawn = built({kEveryTolerance, "seed=3"});
+  const PerJoint& friction = drawn.as_built.numbers[5];
+  EXPECT_NE(friction[0], friction[1]);
+  for (const ContactElement& element : contact_elements(*drawn.robot, ContactSet::all))
+    EXPECT_EQ(element.friction, friction[drawn.robot->bodies[element.body].module]) << element.name;
+  EXPECT_EQ(alone(built({"as_built.foot_friction=0.5"})), alone(built({"ground.friction=0.4"})));
+  EXPECT_NE(alone(built({"as_built={foot_friction: {m3: 0.5}}"})), alone(built({})));
+}
+
 // Twice the masses and twice the torque constants give the same motion and twice the torques.
 TEST(AsBuilt, MassesScaleTorques) {
   const std::vector<std::string> pushed{"ground.type=none",   "contact.on=none",    "robot.base=fixed",

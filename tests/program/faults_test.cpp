@@ -190,6 +190,20 @@ TEST(Faults, AWeakJointHasAShareOfTheTorque) {
   }
 }
 
+// Companions of the estimate run beside the recorded lane, and a battery bounds the motors: the torque available to the
+// recorded joint has the fault too.
+TEST(Faults, TheAvailableTorqueBesideCompanionsHasTheFault) {
+  const auto share = [](const std::string& at) {
+    const Recording r =
+        run(faulty_caterpillar({"duration=1.2", "physics.estimate=full", "supply={voltage: 7.4, resistance: 0.05}", at}));
+    return judge_from(r, 0).joints[6].envelope_peak;
+  };
+  const double whole = share("at=[]");
+  const double weak = share(fault("weak, share: 0.1", "0"));
+  EXPECT_GT(weak, 2 * whole);
+  EXPECT_LE(weak, 1 + 1e-9);
+}
+
 TEST(Faults, LateSetPointsAreThoseOfEarlierTicks) {
   const std::vector<std::string> sets{"duration=0.6", "trace.period=0.015", "trace.columns=[joint.6.*]"};
   const Recording on_time = run(faulty_caterpillar(sets));

@@ -290,6 +290,43 @@ sensors: {type: imu, body: m0/pivot}
   }
 }
 
+// Bodies of one link move as one: an IMU at the same place gives the same vectors through each, in the axes of each.
+TEST(Sensors, ImusOfFusedBodiesAgree) {
+  const Scenario bare = shipped("hexapod.yaml", {"physics.engine=articulated"});
+  const Robot& robot = *bare.robot;
+  const auto named = [&](const std::string& name) -> const Body& {
+    return *std::ranges::find_if(robot.bodies, [&](const Body& body) { return body.name == name; });
+  };
+  const Body& one = named("m0/passive");
+  const Body* other = nullptr;  // of another module, and turned
+  for (const Body& body : robot.bodies) {
+    if (body.link == one.link && !body.in_link.R.isApprox(one.in_link.R)) other = &body;
+  }
+  ASSERT_NE(other, nullptr);
+  const Vec3 place(0.03, -0.02, 0.05);
+  const Vec3 in_other = other->in_link.inverse() * (one.in_link * place);
+  const Recording r = run(shipped(
+      "hexapod.yaml",
+      {"physics.engine=articulated", "duration=0.6", "trace.columns=[sensor.*]",
+       fmt::format(
+           "sensors={{a: {{type: imu, body: {}, position: [{}, {}, {}]}}, b: {{type: imu, body: {}, position: [{}, {}, {}]}}}}",
+           one.name, place.x(), place.y(), place.z(), other->name, in_other.x(), in_other.y(), in_other.z())}));
+  const Table table(r.trace);
+  const Mat3 turned = other->in_link.R.transpose() * one.in_link.R;
+  double largest = 0;
+  for (std::size_t row = 0; row < r.trace.rows(); ++row) {
+    for (const char* const quantity : {"gyro", "accelerometer"}) {
+      const auto vector = [&](const char* name) {
+        const auto at = [&](const char* axis) { return table.at(row, fmt::format("sensor.{}.{}_{}", name, quantity, axis)); };
+        return Vec3(at("x"), at("y"), at("z"));
+      };
+      EXPECT_LT((vector("b") - turned * vector("a")).norm(), 1e-9) << quantity << ", row " << row << "; difference over 15 ms";
+      if (*quantity == 'g') largest = std::max(largest, vector("a").norm());
+    }
+  }
+  EXPECT_GT(largest, 0.05) << "the body turns, so that the place matters";
+}
+
 // The tip of a rod of length 1 at the angle theta moves at theta' (-cos theta, 0, sin theta); its frame is turned by theta
 // about y.
 TEST(Sensors, ImuAtTheTipOfAPendulum) {

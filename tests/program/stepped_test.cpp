@@ -160,6 +160,22 @@ TEST(Stepped, FaultsBeginAnewWithTheRestart) {
   }
 }
 
+/// The hold of a stuck joint grows within a tick, as in a run.
+TEST(Stepped, AJamIsThatOfTheRun) {
+  for (const char* const step : {"auto", "5e-4"}) {
+    std::vector<std::string> sets = kFast;
+    sets.insert(sets.end(), {"duration=0.6", fmt::format("physics.step={}", step),
+                             "at=[{t: 0.3, fault: {joint: m7/active, kind: stuck}}]"});
+    const Scenario s = shipped("hexapod.yaml", sets);
+    const Walked expected = walked(s);
+    SteppedLanes lanes(std::vector<Scenario>{s});
+    for (std::size_t k = 0; k + 1 < expected.setpoint.size(); ++k) {
+      ASSERT_EQ(pose_of(lanes, 0, s.robot->joints.size()), expected.pose[k]) << step << ", tick " << k;
+      lanes.tick(std::vector<Action>{{expected.setpoint[k], {}, {}}});
+    }
+  }
+}
+
 TEST(Stepped, ATickAllocatesNothing) {
   std::vector<std::string> sets = kFast;
   sets.emplace_back("sensors={imu: {type: imu, body: m0/active, gyro: {noise: 0.01}}, feet: {type: load}}");

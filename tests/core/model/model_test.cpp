@@ -126,6 +126,25 @@ TEST(Docking, HingesTurnTheOtherWayWhereTheModuleIsDockedByItsPassiveBlock) {
   EXPECT_NEAR(joint.axis[1], column(module, 1).y(), kPoseRounding);
 }
 
+/// A hinge that is turned about by the docking has its spring in the same place: angle, range and rest change their signs
+/// together.
+TEST(Docking, SpringsTurnWithTheirHinge) {
+  ModuleType sprung = mtran();
+  for (HingeType& hinge : sprung.hinges) {
+    hinge.lo = -0.5;
+    hinge.hi = 1;
+    hinge.passive = Passive{.stiffness = 2, .rest = 0.25};
+  }
+  const Robot robot = assemble({sprung}, {0, 0}, {{4, 1, 1, 0, 0, SourceLocation{"robot.dat", 1, 1}}});
+  for (std::size_t j = 0; j < 4; ++j) {
+    const Joint& joint = robot.joints[j];
+    const bool turned = joint.module == 1;  // docked by its passive block, it is built from there
+    EXPECT_EQ(joint.passive->rest, turned ? -0.25 : 0.25) << joint.name;
+    EXPECT_EQ(joint.lo, turned ? -1 : -0.5) << joint.name;
+    EXPECT_EQ(joint.hi, turned ? 0.5 : 1) << joint.name;
+  }
+}
+
 /// Rows of docks in which module m has the number number[m].
 std::vector<std::array<int, 5>> renumbered(std::vector<std::array<int, 5>> rows, const std::vector<int>& number) {
   for (auto& row : rows) {

@@ -127,6 +127,14 @@ TEST(FallCheck, KnowsWallsAndRoofs) {
   EXPECT_EQ(roof.check("fall").status, CheckStatus::pass);
 }
 
+/// On a step, the ground's height is the mean below all contact elements, not that below the centre of mass.
+TEST(FallCheck, CountsTheStepsBelowTheElements) {
+  // Half of the module, and not its centre at x = 0.2, is above a box of the height kPlateau, on which it lies.
+  const Still step("{type: boxes, boxes: [{center: [0.701, 0.1, 0.05], size: [1, 1, 0.1]}]}");
+  EXPECT_NEAR(heights(step.scenario, step.record).front(), 0.0325 + kPlateau / 2, kBodyRounding);
+  EXPECT_NEAR(standing_height(step.scenario), 0.0325 + kPlateau / 2, kBodyRounding);
+}
+
 TEST(UprightCheck, FailsBelowTheHorizontal) {
   constexpr double kHalf = std::numbers::pi / 2;
   const Still still("{type: none}", {"actuator.type=none", "physics.gravity=[0, 0, 0]"});
