@@ -7,6 +7,7 @@
 
 #include "core/scenario/resolved.h"
 #include "core/simulation/batch.h"
+#include "core/simulation/stepped.h"
 #include "tests/folder.h"
 #include "tests/messages.h"
 #include "tests/program/as_alone.h"
@@ -125,6 +126,23 @@ TEST_P(Play, MovesLikeTwoMasses) {
   robot.hinge.clear();
   robot.stiffness = 5;
   EXPECT_LT(distance(robot), 0.01) << "damping grows with the stiffness";
+}
+
+/// An encoder at the motor measures the motor's angle and speed, not those of the link.
+TEST_P(Play, TheEncoderAtTheMotorMeasuresTheMotor) {
+  Geared robot{GetParam(), 0.05, ", encoder: motor"};
+  robot.duration = 1;
+  const Recording record = run(robot.read());
+  SteppedLanes lanes(std::vector<Scenario>{robot.read()});
+  double apart = 0;
+  for (std::size_t tick = 1; tick < 100; ++tick) {
+    lanes.tick(std::vector<Action>{{{}, std::vector<double>{0.0}, {}}});
+    const std::size_t row = 2 * tick;  // of 5 ms, at ticks of 10 ms
+    EXPECT_EQ(lanes.measured(0).angle[0], record.joint(0, "motor_angle")[row]) << tick;
+    EXPECT_EQ(lanes.measured(0).speed[0], record.joint(0, "motor_speed")[row]) << tick;
+    apart = std::max(apart, std::abs(lanes.measured(0).speed[0] - record.joint(0, "speed")[row]));
+  }
+  EXPECT_GT(apart, 0.1) << "the motor moves alone within the play";
 }
 
 /// Explicit methods smooth dry friction, which is left out here.

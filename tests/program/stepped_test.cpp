@@ -160,6 +160,18 @@ TEST(Stepped, FaultsBeginAnewWithTheRestart) {
   }
 }
 
+TEST(Stepped, TheRecordOfSetPointsBeginsAnewWithTheRestart) {
+  kit::Episodes episodes(std::vector<Scenario>(2, shipped("hexapod.yaml", kFast)), {.record = true});
+  const std::size_t joints = episodes.scenario(0).robot->joints.size();
+  const std::vector<double> first(2 * episodes.action_columns().size(), 0.1);
+  const std::vector<double> later(first.size(), 0.2);
+  for (int k = 0; k < 3; ++k) episodes.step(first);
+  episodes.restart(std::vector<std::size_t>{0});
+  for (int k = 0; k < 2; ++k) episodes.step(later);
+  EXPECT_EQ(episodes.set_points(0), std::vector<double>(2 * joints, 0.2));
+  EXPECT_EQ(episodes.set_points(1).size(), 5 * joints);
+}
+
 /// The hold of a stuck joint grows within a tick, as in a run.
 TEST(Stepped, AJamIsThatOfTheRun) {
   for (const char* const step : {"auto", "5e-4"}) {
