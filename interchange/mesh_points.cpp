@@ -155,6 +155,8 @@ class MeshReader {
 
 }  // namespace
 
+bool has_triangles(const std::string& file) { return is_stl(file); }
+
 bool is_mesh_file(const std::string& file) { return is_stl(file) || ending_of(file) == ".obj"; }
 
 std::vector<Vec3> mesh_vertices(const std::string& file) {
@@ -168,6 +170,24 @@ std::vector<Vec3> mesh_vertices(const std::string& file) {
   std::vector<Vec3> points = is_stl(file) ? reader.stl() : reader.obj();
   if (points.empty()) throw InputError(SourceLocation{file}, "has no vertices");
   return points;
+}
+
+double enclosed_volume(std::span<const Vec3> triangles) {
+  constexpr double kOpen = 1e-3;
+  Vec3 areas = Vec3::Zero();
+  double size = 0;
+  double six_volumes = 0;
+  for (std::size_t i = 0; i + 2 < triangles.size(); i += 3) {
+    const Vec3 a = triangles[i] - triangles[0];
+    const Vec3 b = triangles[i + 1] - triangles[0];
+    const Vec3 c = triangles[i + 2] - triangles[0];
+    const Vec3 area = (b - a).cross(c - a);
+    areas += area;
+    size += area.norm();
+    six_volumes += a.dot(b.cross(c));
+  }
+  const bool closed = areas.norm() <= kOpen * size;
+  return closed ? std::abs(six_volumes) / 6 : std::numeric_limits<double>::quiet_NaN();
 }
 
 MeshHull hull_of_few(std::span<const Vec3> points) {

@@ -1,5 +1,6 @@
 // Vertices of mesh files, and a choice of few with nearly the same convex hull.
 #pragma once
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -14,6 +15,9 @@ namespace gaitlab::interchange {
 /// finite, or has none or more than 4e6 vertices.
 std::vector<Vec3> mesh_vertices(const std::string& file);
 
+/// True if the vertices of the file are those of triangles, three each: STL.
+bool has_triangles(const std::string& file);
+
 /// True for a file name with the ending of STL or OBJ, in letters of any case.
 bool is_mesh_file(const std::string& file);
 
@@ -23,7 +27,13 @@ inline constexpr std::size_t kFewPoints = 32;
 struct MeshHull {
   std::vector<Vec3> points;
   double gap = 0;  ///< largest distance by which their hull is inside that of all, as a share of the longest edge of the box
+  double enclosed = std::numeric_limits<double>::quiet_NaN();  ///< volume in the mesh's surface; NaN if it is not known
 };
+
+/// Volume in a closed surface of triangles, three points each: V = |sum a . (b x c)| / 6. NaN if the surface is open: the sum
+/// of its areas, as vectors, exceeds a thousandth of that of their magnitudes. Volumes in surfaces that overlap are counted
+/// twice.
+double enclosed_volume(std::span<const Vec3> triangles);
 
 /// At most 32 of the points, chosen by support function over 1026 fixed directions (a subdivided octahedron): begun at the
 /// farthest point along the first, it adds the farthest point along the direction in which the hull of those chosen falls

@@ -203,8 +203,10 @@ void MjcfText::reduce() {
     }
     for (const XmlTag::Attribute& attribute : tag.attributes) {
       const auto begin = static_cast<std::size_t>(attribute.name.data() - text_.data());
-      const bool range = tag.name == "joint" && attribute.name == kTorqueRange;
-      if (is_one_of(attribute.name, kUnusedAttributes)) blank(begin, attribute.begin + attribute.value.size() + 1);
+      const bool stated = tag.name == "joint" && attribute.name == kTorqueRange;
+      const bool range = stated && value_of(tag, "actuatorfrclimited") != "false";
+      if (is_one_of(attribute.name, kUnusedAttributes) || (stated && !range))
+        blank(begin, attribute.begin + attribute.value.size() + 1);
       if (range) text_.replace(begin, kTorqueRange.size(), "user            ");
     }
   }

@@ -15,6 +15,7 @@ namespace gaitlab::interchange {
 struct ImportOptions {
   std::vector<std::string> locked = {};  ///< names and patterns of joints that are fixed at 0
   std::string meshes = {};               ///< folder of mesh files; "" for none
+  std::string srdf = {};                 ///< file with pairs of links that never collide (srdf.h); "" for none
 };
 
 /// Words of a format in messages and in the module file.

@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <optional>
 #include <utility>
 
+#include "core/model/hull.h"
 #include "core/model/hull_shape.h"
 #include "core/settings/wording.h"
 #include "interchange/robot_xml.h"
@@ -39,6 +41,12 @@ void RobotHulls::add(const RobotElement& of, const std::string& what, const Pose
     return;
   }
   shapes.push_back(std::move(*shape));
+  constexpr double kHollow = 0.5;
+  if (const double fill = hull.enclosed / solid(convex_hull(hull.points)).volume; fill < kHollow) {
+    ++hollow_;
+    if (fill < least_fill_) emptiest_ = of;
+    least_fill_ = std::min(least_fill_, fill);
+  }
   if (count_++ > 0 && hull.gap <= gap_) return;
   gap_ = hull.gap;
   widest_ = of;
@@ -53,6 +61,13 @@ void RobotHulls::add_note(const char* body, std::vector<RobotNote>& notes) const
                    count_ == 1 ? fmt::format("1 {} is", one_) : fmt::format("each of {} {} is", count_, several_), kFewPoints,
                    100 * gap_, body, in_quotes(widest_.name)),
        true});
+  if (hollow_ == 0) return;
+  notes.push_back({emptiest_.place,
+                   fmt::format("{} less than half of the hull, whose openings and bays touch as if they were filled; {} {} "
+                               "fills {:.0f} %",
+                               hollow_ == 1 ? fmt::format("1 {} fills", one_) : fmt::format("{} {} fill", hollow_, several_),
+                               body, in_quotes(emptiest_.name), 100 * least_fill_),
+                   true});
 }
 
 }  // namespace gaitlab::interchange

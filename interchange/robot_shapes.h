@@ -28,8 +28,11 @@ class RobotHulls {
  private:
   const char *one_, *several_;  ///< `mesh`, `meshes`
   std::size_t count_ = 0;
-  double gap_ = 0;            ///< largest gap of a hull
-  RobotElement widest_ = {};  ///< element of that hull
+  double gap_ = 0;              ///< largest gap of a hull
+  RobotElement widest_ = {};    ///< element of that hull
+  std::size_t hollow_ = 0;      ///< number of meshes that fill less than half of their hulls
+  double least_fill_ = 0.5;     ///< least of these shares
+  RobotElement emptiest_ = {};  ///< element of that mesh
 };
 
 }  // namespace gaitlab::interchange

@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "core/model/pattern.h"
 #include "core/settings/shell_word.h"
 #include "core/settings/wording.h"
+#include "interchange/srdf.h"
 #include "interchange/urdf_joined.h"
 #include "interchange/urdf_mass.h"
 #include "interchange/urdf_motor.h"
@@ -35,6 +37,9 @@ class BodyWalk {
  public:
   BodyWalk(const UrdfText& urdf, const ImportOptions& options, Problems& problems)
       : urdf_(urdf), locked_(options.locked), problems_(problems), shapes_(urdf, options.meshes) {}
+
+  /// Number of each link's body, after read().
+  [[nodiscard]] const std::map<std::string, std::size_t>& body_of_link() const { return body_of_link_; }
 
   RobotBodies read() {
     made_.notes = urdf_.repairs();
@@ -91,6 +96,7 @@ class BodyWalk {
 
   void read_link(const Placed& at) {
     const urdf::Link& link = *at.link;
+    body_of_link_[link.name] = at.body;
     const std::vector<Shape> shapes = link_shapes(at);
     check_numbers(link, shapes, urdf_, problems_);
     if (link.inertial != nullptr) add_mass(*link.inertial, at, shapes);
@@ -295,20 +301,26 @@ class BodyWalk {
   std::vector<Placed> open_;                    ///< links to read
   std::set<const urdf::Joint*> joined_;         ///< joints whose links are one body
   std::vector<const urdf::Joint*> refused_;     ///< joints that cannot be hinges and are not joined
-  std::set<std::size_t> inner_, moved_;         ///< bodies that are the parent of a joint that moves; those that one moves
-  bool chosen_mass_ = false;                    ///< true if the mass of a fixed base is chosen
-  std::vector<const urdf::Link*> hidden_;       ///< links whose visual differs from their collision
+  std::map<std::string, std::size_t> body_of_link_;
+  std::set<std::size_t> inner_, moved_;    ///< bodies that are the parent of a joint that moves; those that one moves
+  bool chosen_mass_ = false;               ///< true if the mass of a fixed base is chosen
+  std::vector<const urdf::Link*> hidden_;  ///< links whose visual differs from their collision
 };
 
 }  // namespace
 
 RobotBodies urdf_bodies(const UrdfText& urdf, const ImportOptions& options, Problems& problems) {
-  RobotBodies made = BodyWalk(urdf, options, problems).read();
+  BodyWalk walk(urdf, options, problems);
+  RobotBodies made = walk.read();
   for (const char* tag : {"transmission", "gazebo", "sensor", "safety_controller", "calibration", "contact"}) {
     if (const std::size_t number = urdf.count(tag); number > 0)
       made.notes.push_back({urdf.place(), fmt::format("{} of <{}>", counted(number, "element"), tag)});
   }
   made.finish();
+  if (options.srdf.empty()) return made;
+  std::map<std::string, std::string> names;
+  for (const auto& [link, body] : walk.body_of_link()) names[link] = made.bodies[body].name;
+  made.may_overlap = srdf_pairs(options.srdf, urdf.place().file, names, problems);
   return made;
 }
 

@@ -26,6 +26,13 @@ std::string without_scheme(const std::string& name) {
   return name;
 }
 
+/// Longest edge of the points' box, m; 0 without points.
+double extent(const std::vector<Vec3>& points) {
+  Eigen::AlignedBox3d box;
+  for (const Vec3& point : points) box.extend(point);
+  return box.isEmpty() ? 0 : box.sizes().maxCoeff();
+}
+
 }  // namespace
 
 Vec3 vec(const urdf::Vector3& v) { return {v.x, v.y, v.z}; }
@@ -71,7 +78,9 @@ const MeshHull& UrdfShapes::hull_of(const std::string& file, const Vec3& scale) 
   if (const auto known = hulls_.find(key); known != hulls_.end()) return known->second;
   std::vector<Vec3> points = mesh_vertices(file);
   for (Vec3& point : points) point = point.cwiseProduct(scale);
-  return hulls_[key] = hull_of_few(points);
+  MeshHull& made = hulls_[key] = hull_of_few(points);
+  if (has_triangles(file)) made.enclosed = enclosed_volume(points);
+  return made;
 }
 
 void UrdfShapes::add_mesh(const std::string& link, const Pose& pose, const urdf::Mesh& mesh, std::vector<Shape>& shapes,
@@ -85,8 +94,16 @@ void UrdfShapes::add_mesh(const std::string& link, const Pose& pose, const urdf:
                                     what, kFoldersAbove, meshes_.empty() ? "" : " nor in " + in_quotes(meshes_)));
     return;
   }
+  constexpr double kLargest = 50;  // m; chosen: millimetres without their scale are beyond
   try {
-    made_.add({link, place}, what, pose, hull_of(*file, vec(mesh.scale)), shapes, notes);
+    const MeshHull& hull = hull_of(*file, vec(mesh.scale));
+    if (const double size = extent(hull.points); size > kLargest) {
+      problems.add(
+          place,
+          fmt::format("{}, which is {:.3g} m large; if its numbers are mm, expected scale=\"0.001 0.001 0.001\"", what, size));
+      return;
+    }
+    made_.add({link, place}, what, pose, hull, shapes, notes);
   } catch (const InputError& error) {
     for (const Problem& one : error.problems())
       problems.add(place, fmt::format("{}: {}: {}", what, to_string(one.place), one.text));

@@ -336,6 +336,9 @@ void add_new_files(Commands& commands, CLI::App& command) {
             ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
             ->needs(from);
         module.add_option("--meshes", arguments.options.meshes, "folder of the mesh files")->check(not_empty)->needs(from);
+        module.add_option("--srdf", arguments.options.srdf, "SRDF file of the robot, for pairs of links that never collide")
+            ->check(not_empty)
+            ->needs(from);
         add_out(module, arguments);
       },
       &command);

@@ -73,8 +73,11 @@ TEST_F(FromMjcf, MotorsOfEveryKind) {
     return fmt::format("<joint name='{}' axis='0 1 0' damping='0.1' frictionloss='0.2' armature='0.003'/>", name);
   };
   const ModuleType type = read_mjcf(
-      world(body("trunk", "<freejoint/>" + body("a", joint("gear")) + body("b", joint("kp")) + body("c", joint("none")) +
-                              body("d", "<joint name='new' axis='0 1 0' actuatorfrcrange='-7 7'/>") +
+      world(body("trunk", "<freejoint/>" + body("a", joint("gear")) +
+                              body("b",
+                                   "<joint name='kp' axis='0 1 0' damping='0.1' frictionloss='0.2' armature='0.003' "
+                                   "actuatorfrcrange='-2 2' actuatorfrclimited='false'/>") +
+                              body("c", joint("none")) + body("d", "<joint name='new' axis='0 1 0' actuatorfrcrange='-7 7'/>") +
                               body("e", joint("free")))) +
       "<actuator><motor joint='gear' gear='30' ctrllimited='true' ctrlrange='-1 0.5'/>"
       "<position joint='kp' kp='40' forcelimited='true' forcerange='-3 4'/><motor joint='none'/><position joint='new' kp='1'/>"

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -80,6 +81,55 @@ TEST_F(MeshPoints, ABoxHasItsCorners) {
     for (const double at : {one.x() / 0.4, one.y() / 0.8, one.z() / 1.2}) EXPECT_NEAR(std::abs(2 * at - 1), 1, 1e-12);
 }
 
+/// Triangles of a box between two corners, counter-clockwise as seen from outside.
+std::vector<Vec3> box_triangles(const Vec3& low, const Vec3& high) {
+  std::vector<Vec3> all;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const bool far : {false, true}) {
+      const auto corner = [&](bool u, bool v) {
+        Vec3 at;
+        at[axis] = far ? high[axis] : low[axis];
+        at[(axis + 1) % 3] = u ? high[(axis + 1) % 3] : low[(axis + 1) % 3];
+        at[(axis + 2) % 3] = v ? high[(axis + 2) % 3] : low[(axis + 2) % 3];
+        return at;
+      };
+      const std::array<Vec3, 4> around{corner(false, false), corner(far, !far), corner(true, true), corner(!far, far)};
+      for (const int k : {1, 2}) all.insert(all.end(), {around[0], around[k], around[k + 1]});
+    }
+  }
+  return all;
+}
+
+TEST(EnclosedVolume, IsThatOfClosedSurfaces) {
+  const std::vector<Vec3> box = box_triangles({1, 2, 3}, {1.5, 4, 6});
+  EXPECT_NEAR(enclosed_volume(box), 3, 1e-12);
+  const std::vector<Vec3> open(box.begin(), box.end() - 3);
+  EXPECT_TRUE(std::isnan(enclosed_volume(open)));
+  EXPECT_EQ(enclosed_volume({}), 0);
+}
+
+/// A frame of four bars fills 0.36 of its hull, and a bar all of it.
+TEST_F(FromUrdf, FramesAreNamed) {
+  std::vector<Vec3> frame = box_triangles({0, 0, 0}, {1, 0.1, 0.2});
+  for (const auto& [low, high] : {std::pair(Vec3(0, 0.9, 0), Vec3(1, 1, 0.2)), std::pair(Vec3(0, 0.1, 0), Vec3(0.1, 0.9, 0.2)),
+                                  std::pair(Vec3(0.9, 0.1, 0), Vec3(1, 0.9, 0.2))}) {
+    const std::vector<Vec3> bar = box_triangles(low, high);
+    frame.insert(frame.end(), bar.begin(), bar.end());
+  }
+  folder_.write("frame.stl", stl(frame, static_cast<std::uint32_t>(frame.size() / 3)));
+  folder_.write("bar.stl", stl(box_triangles({0, 0, 0}, {1, 0.1, 0.2}), 12));
+  const auto read = [&](const std::string& file) {
+    read_urdf(urdf_link("a", kInertial + ("<collision><geometry><mesh filename='" + file + "'/></geometry></collision>")) +
+              urdf_link("b") + urdf_joint("ab", "revolute", "a", "b", kLimit));
+    return notes().back();
+  };
+  EXPECT_EQ(
+      read("frame.stl"),
+      "2 Changed: 1 mesh fills less than half of the hull, whose openings and bays touch as if they were filled; link 'a' "
+      "fills 36 %");
+  EXPECT_TRUE(contains(read("bar.stl"), "1 mesh is the convex hull")) << read("bar.stl");
+}
+
 /// Text of an OBJ file with the corners of a box between two corners.
 std::string obj_box(const Vec3& low, const Vec3& high) {
   std::string text;
@@ -132,6 +182,11 @@ TEST_F(FromUrdf, MeshesThatCannotBeRead) {
   const std::string damaged = refused(robot(mesh("short.stl")));
   EXPECT_TRUE(contains(damaged, "r:2:1: error: link 'a' has the mesh 'short.stl': ")) << damaged;
   EXPECT_TRUE(contains(damaged, "16843009 triangles are announced, the file has 0 and 0 further bytes")) << damaged;
+  folder_.write("mm.obj", obj_box({0, 0, 0}, {40, 212, 30}));
+  EXPECT_EQ(
+      refused(robot(mesh("mm.obj"))),
+      "r:2:1: error: link 'a' has the mesh 'mm.obj', which is 212 m large; if its numbers are mm, expected scale=\"0.001 0.001 "
+      "0.001\"");
   EXPECT_EQ(read_urdf(robot(mesh("none.stl") + box)).bodies[0].shapes.front().kind, Shape::Kind::box);
   EXPECT_EQ(notes().back(),
             "2 Changed: link 'a' has meshes that cannot be read as collision; its visual shapes are its contact");

@@ -124,6 +124,31 @@ TEST_F(FromUrdf, MotorsAndPassiveHinges) {
 
 /// Motors of joints without a limit hold twice the weight of all that they move, at its full lever: T = 2 m g L. The stretched
 /// A wheel has its centre of mass on its axis: the lever is the radius of gyration, sqrt(0.02 / 2) = 0.1 m.
+/// Pairs of an SRDF file are those of the bodies of its links, each once; fixed links are one body.
+TEST_F(FromUrdf, PairsOfSrdfMayOverlap) {
+  const std::string robot = urdf_link("a") + urdf_link("cover") + urdf_link("b") + urdf_link("c") +
+                            urdf_joint("lid", "fixed", "a", "cover", "") + urdf_joint("ab", "revolute", "a", "b", kLimit) +
+                            urdf_joint("bc", "revolute", "b", "c", kLimit);
+  const auto with = [&](const std::string& pairs) {
+    options_.srdf = folder_.write("r.srdf", "<robot name='r'>\n" + pairs + "</robot>\n");
+  };
+  with(
+      "<group name='arm'/>\n<disable_collisions link1='c' link2='cover' reason='Never'/>\n"
+      "<disable_collisions link1='a' link2='c'/><disable_collisions link1='cover' link2='a'/>\n"
+      "<!-- <disable_collisions link1='no' link2='a'/> --><disable_collisions link1='b' link2='a' reason='Adjacent'/>\n");
+  read_urdf(robot);
+  EXPECT_EQ(made_.may_overlap, (std::vector<BodyPair>{{"a", "c"}, {"a", "b"}}));
+  with("<disable_collisions link1='b' link2='covr'/>\n<disable_collisions link1='b'/>\n");
+  const std::string wrong = refused(robot);
+  EXPECT_TRUE(contains(wrong, "r.srdf:2:38: error: link 'covr' is not in ")) << wrong;
+  EXPECT_TRUE(contains(wrong, "; did you mean 'cover'?\n")) << wrong;
+  EXPECT_TRUE(contains(wrong, "r.srdf:3:1: error: disable_collisions has no link2")) << wrong;
+  options_.srdf = folder_.write("r.srdf", "<sdf/>");
+  EXPECT_TRUE(contains(refused(robot), "r.srdf: error: is not SRDF; expected an element <robot>")) << refused(robot);
+  options_.srdf = folder_ / "none.srdf";
+  EXPECT_TRUE(contains(refused(robot), "none.srdf: error: ")) << refused(robot);
+}
+
 /// One message lists everything that a module cannot contain, in the order of the file.
 TEST_F(FromUrdf, RefusesInOneList) {
   const std::string mesh = "<visual><geometry><mesh filename='a.stl'/></geometry></visual>";
