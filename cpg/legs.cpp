@@ -150,7 +150,7 @@ Legs::Legs(const RobotInfo& robot, const Settings& settings) : s_(settings) {
   if (robot.legs.empty()) {
     throw std::invalid_argument(
         "found no legs: no two chains of links without branches end near the ground at the start (an arm and a snake have "
-        "none); set initial.angles so that the robot stands");
+        "none); set initial.angles so that the robot stands, or state the legs: robot: {legs: {NAME: BODY}}");
   }
   if (s_.model.stance > 0 && robot.start_stated)
     throw SettingError("model.stance", "stance and initial.angles are both given; expected one");

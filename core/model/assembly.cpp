@@ -214,7 +214,9 @@ Robot as_built(const Robot& drawn, std::span<const ModuleBuild> modules) {
     type_of_module.push_back(module.type);
     if (module.parent >= 0) docks.push_back(module.dock);
   }
-  return Builder(drawn.types, type_of_module, modules).build(docks);
+  Robot built = Builder(drawn.types, type_of_module, modules).build(docks);
+  built.stated_legs = drawn.stated_legs;
+  return built;
 }
 
 std::vector<ContactElement> contact_elements(const Robot& robot, ContactSet on) {

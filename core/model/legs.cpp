@@ -77,23 +77,28 @@ struct Posed {
     return sum / count;
   }
 
+  [[nodiscard]] Chain chain_to(std::size_t end) const {
+    Chain chain;
+    chain.low = lowest(end);
+    std::size_t link = end;
+    chain.links.push_back(link);
+    for (auto parent = static_cast<std::size_t>(robot.links[link].parent); parent > 0 && children[parent] == 1;
+         parent = static_cast<std::size_t>(robot.links[link].parent)) {
+      chain.distances.push_back((zero.p[parent] - zero.p[link]).norm());
+      link = parent;
+      chain.links.push_back(link);
+    }
+    std::ranges::reverse(chain.links);
+    std::ranges::reverse(chain.distances);
+    chain.distances.push_back((sole(end) - zero.p[end]).norm());
+    return chain;
+  }
+
   [[nodiscard]] std::vector<Chain> chains() const {
     std::vector<Chain> all;
     for (std::size_t end = 1; end < robot.links.size(); ++end) {
       if (children[end] > 0 || of_link[end].empty() || is_wheel(end)) continue;
-      Chain chain;
-      chain.low = lowest(end);
-      std::size_t link = end;
-      chain.links.push_back(link);
-      for (auto parent = static_cast<std::size_t>(robot.links[link].parent); parent > 0 && children[parent] == 1;
-           parent = static_cast<std::size_t>(robot.links[link].parent)) {
-        chain.distances.push_back((zero.p[parent] - zero.p[link]).norm());
-        link = parent;
-        chain.links.push_back(link);
-      }
-      std::ranges::reverse(chain.links);
-      std::ranges::reverse(chain.distances);
-      chain.distances.push_back((sole(end) - zero.p[end]).norm());
+      Chain chain = chain_to(end);
       const auto driven = [&](std::size_t l) { return robot.joints[static_cast<std::size_t>(robot.links[l].joint)].driven(); };
       if (std::ranges::any_of(chain.links, driven)) all.push_back(std::move(chain));
     }
@@ -225,7 +230,11 @@ Vec3 forwards(const Vec3& up) {
 std::vector<Leg> legs_of(const Robot& robot, std::span<const double> q, const Mat3& base) {
   const Posed posed(robot, q, base);
   std::vector<Leg> legs;
-  for (const Chain& chain : walking(posed)) legs.push_back(leg_of(posed, chain));
+  if (robot.stated_legs) {
+    for (const StatedLeg& leg : *robot.stated_legs) legs.push_back(leg_of(posed, posed.chain_to(robot.bodies[leg.body].link)));
+  } else {
+    for (const Chain& chain : walking(posed)) legs.push_back(leg_of(posed, chain));
+  }
   if (legs.empty()) return legs;
   const std::vector<Place> at = places(legs, base);
   double longest = 0, widest = 0;
@@ -240,6 +249,7 @@ std::vector<Leg> legs_of(const Robot& robot, std::span<const double> q, const Ma
   }
   std::vector<double> row(legs.size());
   for (const int side : {1, 0, -1}) name_side(legs, at, side, longest, row);
+  for (std::size_t i = 0; robot.stated_legs && i < legs.size(); ++i) legs[i].name = (*robot.stated_legs)[i].name;
   std::vector<std::size_t> order(legs.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
   std::ranges::stable_sort(

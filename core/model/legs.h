@@ -25,7 +25,8 @@ Vec3 forwards(const Vec3& up);
 /// element is within a tenth of the robot's height of the lowest of all. So is a chain with as many joints and, to 1 cm, the
 /// same distances between them and to the foot. If fewer than two chains stand, the largest group of four or more equal chains
 /// with two joints or more are the legs. A robot of only two chains, such as a snake whose base is in the middle, has legs only
-/// if link 0 is above the ground by more than a tenth of the height.
+/// if link 0 is above the ground by more than a tenth of the height. If the robot has stated legs, these are its legs, by their
+/// names; only their order and places are found.
 std::vector<Leg> legs_of(const Robot& robot, std::span<const double> q, const Mat3& base);
 
 }  // namespace gaitlab

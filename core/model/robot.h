@@ -84,13 +84,20 @@ struct Module {
   ModuleBuild build = {};
 };
 
+/// A leg that the scenario states.
+struct StatedLeg {
+  std::string name;
+  std::size_t body = 0;  ///< its last body
+};
+
 struct Robot {
   std::vector<ModuleType> types;
   std::vector<Module> modules;
   std::vector<Link> links;
   std::vector<Joint> joints;
   std::vector<Body> bodies;
-  double mass = 0;  ///< kg
+  double mass = 0;                                         ///< kg
+  std::optional<std::vector<StatedLeg>> stated_legs = {};  ///< without a value, legs_of() finds them
 
   [[nodiscard]] int dof(Base base) const {
     return static_cast<int>(joints.size()) + (base == Base::floating ? 6 : base == Base::planar ? 3 : 0);

@@ -4,6 +4,7 @@
 #include <variant>
 
 #include "core/robot_files/body_pair_list.h"
+#include "core/robot_files/leg_list.h"
 #include "core/scenario/change_section.h"
 #include "core/scenario/group_section.h"
 #include "core/scenario/height_file.h"
@@ -33,6 +34,7 @@ Node robot_node(Scenario& scenario, const std::vector<std::string>& joints) {
   Writer writer(joints);
   for (auto& [key, node] : robot_nodes(*scenario.robot, *scenario.module_documents)) writer.add(key, std::move(node));
   if (!scenario.may_overlap.empty()) writer.add(kMayOverlap, body_pairs_node(scenario.may_overlap));
+  if (scenario.robot->stated_legs) writer.add(kLegs, legs_node(*scenario.robot));
   const bool placed = !scenario.on_ground || scenario.position != Vec3::Zero();
   BaseFields{scenario, placed}.fields(writer);
   return writer.take();

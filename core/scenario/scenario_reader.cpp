@@ -12,6 +12,7 @@
 
 #include "core/plugin/plugin_instance.h"
 #include "core/robot_files/body_pair_list.h"
+#include "core/robot_files/leg_list.h"
 #include "core/robot_files/servo_file.h"
 #include "core/scenario/built_robot.h"
 #include "core/scenario/change_section.h"
@@ -144,6 +145,11 @@ void ScenarioReader::read_body() {
   const Node* const pairs = reader.take(kMayOverlap);
   if (pairs != nullptr && parts.robot)
     scenario_.may_overlap = read_body_pairs(*pairs, body_names(*parts.robot), "the robot", problems_);
+  if (const Node* const legs = reader.take(kLegs); legs != nullptr && parts.robot) {
+    auto named = std::make_shared<Robot>(*parts.robot);
+    named->stated_legs = read_legs(*legs, *named, problems_);
+    parts.robot = std::move(named);
+  }
   for (const Problem& note : parts.notes) scenario_.notes.push_back({note.place, note.text});
   BaseFields base{scenario_};
   base.fields(reader);

@@ -40,7 +40,9 @@ constexpr const char* kRobot = R"json({
   "docks": {"type": "array", "items": {"$ref": "#/definitions/dock"},
     "description": "Docks as rows of a build file, given here; without build and docks: one module."},
   "may_overlap": {"type": "array", "default": [], "items": {"type": "array", "items": {"type": "string"}, "minItems": 2,
-    "maxItems": 2}, "description": "Pairs [BODY, BODY] that the check collision leaves out, by names or patterns: [[m0/trunk, \"m[1-4]/leg\"]]."}
+    "maxItems": 2}, "description": "Pairs [BODY, BODY] that the check collision leaves out, by names or patterns: [[m0/trunk, \"m[1-4]/leg\"]]."},
+  "legs": {"description": "Legs with their last bodies, {front_left: m0/shin}, in place of the legs that are found; or none.",
+    "anyOf": [{"const": "none"}, {"type": "object", "minProperties": 1, "additionalProperties": {"type": "string"}}]}
 })json";
 
 constexpr const char* kHead = R"json({

@@ -16,7 +16,7 @@ from ._evaluator import Evaluator
 from ._policy import Policy
 from ._rollouts import Rollouts, quantities, rollouts
 from ._run import Run, read, run
-from ._scenario import Check, Scenario
+from ._scenario import Check, Leg, Scenario
 from ._search import Search
 from ._study import Study, study
 from ._table import Table
@@ -35,6 +35,7 @@ __all__ = [
     "Evaluator",
     "InputError",
     "Joint",
+    "Leg",
     "Policy",
     "Rollouts",
     "Run",

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import os
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Mapping, Sequence, Union
+from typing import TYPE_CHECKING, Any, Mapping, NamedTuple, Sequence, Union
 
 from . import _native
 from ._settings import mapping, path_text, texts
@@ -21,6 +21,16 @@ def trusted(plugins: Plugins) -> tuple[bool, list[str]]:
     if isinstance(plugins, str) and plugins not in ("trust", "refuse"):
         raise ValueError(f"plugins must be 'trust', 'refuse' or a list of files, not {plugins!r}")
     return plugins == "trust", [] if isinstance(plugins, str) else [path_text(file) for file in plugins]
+
+
+class Leg(NamedTuple):
+    """A leg of the robot (docs/modules.md)."""
+
+    name: str  #: `front_left`
+    joints: list[str]  #: its driven joints, from the trunk outwards
+    side: int  #: 1 on the left, -1 on the right, 0 in the middle
+    hip: tuple[float, float, float]  #: origin of its first joint, m, in the base frame at zero angles
+    foot: tuple[float, float, float]  #: middle of its sole, m, in the base frame at zero angles
 
 
 @dataclass(frozen=True)
@@ -80,6 +90,11 @@ class Scenario:
     def joints(self) -> list[str]:
         """Names of the joints, by number."""
         return self._native.joints
+
+    @property
+    def legs(self) -> list[Leg]:
+        """Legs of the robot, from front to rear, left before right."""
+        return [Leg(*leg) for leg in self._native.legs()]
 
     @property
     def resolved(self) -> str:

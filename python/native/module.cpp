@@ -8,6 +8,7 @@
 #include "core/build_id.h"
 #include "core/errors.h"
 #include "core/scenario/resolved.h"
+#include "core/scenario/sensor_section.h"
 #include "core/simulation/batch_limits.h"
 #include "python/native/apart.h"
 #include "python/native/episodes.h"
@@ -43,6 +44,17 @@ void add_errors(py::module_& m) {
   });
 }
 
+py::list legs_of_scenario(const PyScenario& s) {
+  py::list legs;
+  for (const Leg& leg : plugin_info(s.scenario).legs) {
+    py::list joints;
+    for (const std::int64_t joint : leg.joints) joints.append(s.scenario.robot->joints[static_cast<std::size_t>(joint)].name);
+    legs.append(py::make_tuple(leg.name, joints, leg.side, py::make_tuple(leg.hip[0], leg.hip[1], leg.hip[2]),
+                               py::make_tuple(leg.foot[0], leg.foot[1], leg.foot[2])));
+  }
+  return legs;
+}
+
 void add_scenario_class(py::module_& m) {
   py::class_<PyScenario, std::shared_ptr<PyScenario>>(m, "Scenario")
       .def_property_readonly("name", [](const PyScenario& s) { return s.scenario.name; })
@@ -52,6 +64,7 @@ void add_scenario_class(py::module_& m) {
                                for (const Joint& joint : s.scenario.robot->joints) joints.append(joint.name);
                                return joints;
                              })
+      .def("legs", &legs_of_scenario)
       .def("resolved", [](const PyScenario& s) { return resolved(s.scenario); })
       .def("warnings", &warnings_of, py::arg("severe"))
       .def("check", &check_of)

@@ -105,6 +105,18 @@ class Checks(InFolder):
         self.assertIn(f"takes about {check.seconds:.2g} s" if check.seconds >= 0.1 else "takes less than 0.1 s", said)
         self.assertEqual(check.fails, "")
 
+    def test_legs(self):
+        legs = gaitlab.Scenario("hexapod", FAST).legs
+        self.assertEqual([leg.name for leg in legs], ["front_left", "front_right", "middle_left", "middle_right", "rear_left", "rear_right"])
+        self.assertEqual([leg.side for leg in legs], [1, -1, 1, -1, 1, -1])
+        self.assertEqual(legs[0].joints, ["m9/active", "m9/passive"])
+        self.assertAlmostEqual(legs[0].foot[2], -0.0975, places=12)
+        other = {**FAST, "cpg": {"type": "sine", "amplitude": {"leg:*": 0.1}}}
+        one = gaitlab.Scenario("hexapod", {**other, "robot.legs": {"probe": "m10/passive"}}).legs
+        self.assertEqual([(leg.name, leg.joints) for leg in one], [("probe", ["m10/active", "m10/passive"])])
+        with self.assertRaisesRegex(gaitlab.InputError, "the robot has no legs"):
+            gaitlab.Scenario("hexapod", {**other, "robot.legs": "none"})
+
     def test_early_failure(self):
         with open("wild.yaml", "w") as file:
             file.write("gaitlab: 1\nrobot: {modules: mtran}\nduration: 1\n"

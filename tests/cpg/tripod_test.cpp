@@ -187,6 +187,32 @@ TEST(LegsOf, ATailWithTheHingesOfALegIsNone) {
   EXPECT_EQ(names_of(info(quadruped(false, true)).legs), (Names{"front_left", "front_right", "rear_left", "rear_right"}));
 }
 
+/// Stated legs have their own names, and the order and sides of the legs that would be found.
+TEST(LegsOf, StatedLegsReplaceThoseThatAreFound) {
+  Robot robot = quadruped(false, true);
+  const auto body = [&](const std::string& name) {
+    const auto at = std::ranges::find(robot.bodies, "m0/" + name, &Body::name);
+    return static_cast<std::size_t>(at - robot.bodies.begin());
+  };
+  const std::vector<double> zero(robot.joints.size(), 0.0);
+  const auto legs = [&] { return legs_of(robot, zero, Mat3::Identity()); };
+  const std::vector<Leg> found = legs();
+  robot.stated_legs = {{"tail", body("tcalf")}, {"right", body("bcalf")}, {"left", body("acalf")}};
+  const std::vector<Leg> stated = legs();
+  EXPECT_EQ(names_of(stated), (Names{"left", "right", "tail"}));
+  EXPECT_EQ(stated[0].joints, found[0].joints);
+  EXPECT_EQ(stated[1].joints, found[1].joints);
+  EXPECT_EQ(stated[0].foot, found[0].foot);
+  EXPECT_EQ(stated[0].side, 1);
+  EXPECT_EQ(stated[1].side, -1);
+  EXPECT_EQ(stated[2].side, 0);
+  robot.stated_legs = {{"only", body("bcalf")}};
+  EXPECT_EQ(names_of(legs()), (Names{"only"}));
+  EXPECT_EQ(legs()[0].foot, found[1].foot);
+  robot.stated_legs->clear();
+  EXPECT_TRUE(legs().empty());
+}
+
 TEST(LegsOf, MoreThanThreeOnASideAreNumbered) {
   // A spine of five modules with a leg on each side of modules 0 to 4: octopod.yaml and one pair more.
   std::vector<std::array<int, 5>> rows;

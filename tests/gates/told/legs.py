@@ -19,7 +19,12 @@ class Legs:
         self.at = self.robot.move(still, base, still, still, q, np.zeros_like(q))
         self.zero = self.robot.move(still, np.eye(3)[None], still, still, np.zeros_like(q), np.zeros_like(q))
         self.gather()
-        chains = self.standing()
+        stated = record.scenario["robot"].get("legs")
+        if isinstance(stated, dict):
+            for name, body in stated.items():
+                chain = self.chain(self.link[body])
+                self.of |= {one: name.replace("_", " ") for one, link in self.link.items() if link in chain}
+        chains = [] if stated else self.standing()
         if chains:
             self.name(chains, base[0][2])
 
@@ -50,14 +55,18 @@ class Legs:
         position, rotation = self.zero[body][0][0], self.zero[body][1][0]
         return radius > 0 and np.linalg.norm(np.cross(position + rotation @ centre - origin[0], axis[0])) < FLAT
 
+    def chain(self, end):
+        chain = [end]
+        while self.parent[chain[0]] is not None and len(self.children[self.parent[chain[0]]]) == 1:
+            chain.insert(0, self.parent[chain[0]])
+        return chain
+
     def chains(self):
         """Chains of links from the trunk outwards, each with the distances between its joints."""
         for end in self.parent:
             if end is None or self.children[end] or end not in self.low or self.wheel(end):
                 continue
-            chain = [end]
-            while self.parent[chain[0]] is not None and len(self.children[self.parent[chain[0]]]) == 1:
-                chain.insert(0, self.parent[chain[0]])
+            chain = self.chain(end)
             if any(self.robot.driven[joint] for joint in chain):
                 at = [self.zero.hinge[joint][0][0] for joint in chain]
                 at.append(self.sole(end))
