@@ -9,33 +9,13 @@
 #include "core/scenario/sensor_section.h"
 #include "core/settings/wording.h"
 #include "cpg/stance.h"
-#include "report/verdict/position_loop.h"
+#include "report/verdict/leg_sag.h"
 
 namespace gaitlab::app {
 
 namespace {
 
 constexpr double kSag = 0.01;  // rad
-
-/// Largest angle, rad, by which a joint of a leg yields if each foot carries an equal share of the weight.
-double sag(const Scenario& one, const RobotInfo& robot, const std::vector<cpg::LegKinematics>& legs,
-           const std::vector<double>& q) {
-  const double load = one.robot->mass * one.physics.gravity.norm() / static_cast<double>(legs.size());
-  const Vec3 up = vector_of(robot.up);
-  double most = 0;
-  for (const report::PositionLoop& loop : report::position_loops(one)) {
-    for (std::size_t l = 0; l < legs.size(); ++l) {
-      if (std::ranges::find(robot.legs[l].joints, static_cast<std::int64_t>(loop.joint)) == robot.legs[l].joints.end())
-        continue;
-      constexpr double kSmall = 1e-6;  // rad
-      std::vector<double> moved = q;
-      moved[loop.joint] += kSmall;
-      const double lever = up.dot(legs[l].foot(moved) - legs[l].foot(q)) / kSmall;  // m, of the load about the joint
-      most = std::max(most, std::abs(lever) * load / loop.stiffness);
-    }
-  }
-  return most;
-}
 
 /// The section `controller`, with the module's gains times `factor`.
 std::string controller_text(const Scenario& one, double period, double factor, double sags) {
@@ -67,7 +47,8 @@ std::optional<LegValues> leg_values(const Scenario& one, double share) {
   LegValues values;
   constexpr std::array kPeriods{0.015, 0.01, 0.005, 0.002, 0.001};  // s
   const double usual = one.control_period;
-  const double sags = sag(one, robot, legs, q);
+  const std::optional<report::LegSag> yields = report::leg_sag(one, robot, q);
+  const double sags = yields ? yields->angle : 0;
   const auto holds = [&](double period) { return period <= usual && sags * period / usual <= kSag; };
   const auto longest = std::ranges::find_if(kPeriods, holds);
   const double period = longest == kPeriods.end() ? kPeriods.back() : *longest;

@@ -11,6 +11,7 @@
 #include "core/settings/wording.h"
 #include "report/analysis/own_overlap.h"
 #include "report/verdict/evidence.h"
+#include "report/verdict/leg_sag.h"
 #include "report/verdict/plausible/plausibility.h"
 #include "report/verdict/position_loop.h"
 
@@ -137,6 +138,7 @@ void check_motors(const Scenario& s, bool with_gain, std::vector<Warning>& out) 
   const std::vector<PositionLoop> loops = position_loops(s);
   check_gain(s, loops, out);
   check_encoder(s, loops, out);
+  if (const std::optional<Warning> sag = sag_warning(s)) out.push_back(*sag);
 }
 
 /// Notes the overlaps of bodies of one module that do not count.

@@ -13,6 +13,7 @@ namespace gaitlab::report {
 /// - A position loop (position_loop.h) with a gain above its bound, which may not settle (warning), or above half of it, which
 /// overshoots (note). The message has the largest Kp and the longest control period.
 /// - An encoder whose step commands more than 10 % of the motor's torque at rest.
+/// - Legs that yield under the robot's weight (leg_sag.h).
 /// - A number outside its usual range (plausibility.h), with the unit in which it may have been given. If the control period, a
 ///   gain or the speed of a motor is such a number, position loops and encoders are not judged.
 /// - Bodies of one module that overlap by design (note).

@@ -1,7 +1,12 @@
 // Every warning appears for a scenario with its cause, and no warning appears for the shipped scenarios.
 #include "report/verdict/warnings.h"
 
+#include <cmath>
+#include <tuple>
+
+#include "core/scenario/sensor_section.h"
 #include "report/analysis/summary.h"
+#include "report/verdict/leg_sag.h"
 #include "tests/labels.h"
 #include "tests/report/verdict/messages.h"
 
@@ -31,6 +36,52 @@ TEST(SetupWarnings, AreSilentOnShippedScenarios) {
   for (const std::string& file : kShipped) {
     for (const Warning& doubt : of(file, {})) ADD_FAILURE() << file << ": " << doubt.text;
   }
+}
+
+/// Four legs whose feet are 0.1 m before or behind their hinges yield as the engine says, and the warning has a gain that holds
+/// them.
+TEST(SetupWarnings, LegsThatYield) {
+  std::string bodies, hinges;
+  for (const auto& [name, x, y] : {std::tuple("a", 0.2, 0.1), {"b", 0.2, -0.1}, {"c", -0.2, 0.1}, {"d", -0.2, -0.1}}) {
+    bodies += fmt::format(
+        "      {}: {{mass: 0.01, inertia: [1e-5, 1e-5, 1e-5, 0, 0, 0], shape: [{{sphere: 0.01, origin: [{}, 0, -0.1]}}]}}\n",
+        name, x / 2);
+    hinges += fmt::format(
+        "      - {{name: at_{0}, parent: trunk, child: {0}, origin: [{1}, {2}, 0], axis: [0, 1, 0], range: [-1, 1]}}\n", name,
+        x, y);
+  }
+  const std::string text =
+      "gaitlab: 1\nrobot:\n  modules:\n    gaitlab_module: 1\n    name: table\n    bodies:\n"
+      "      trunk: {mass: 2, inertia: [0.02, 0.03, 0.03, 0, 0, 0], shape: [{box: [0.4, 0.2, 0.05]}]}\n" +
+      bodies + "    hinges:\n" + hinges +
+      "    contacts: {all: shapes}\n"
+      "    actuator: {type: servo, voltage: 6, stall_torque: 3, no_load_speed: 10, load_friction: 0, dry_friction: 0, "
+      "viscous_friction: 0}\n"
+      "    controller: {type: pid, Kp: 20, Kd: 0}\n"
+      "contact: {on: all}\nground: {friction: 0}\nphysics: {engine: articulated}\nduration: 3\n"
+      "cpg: {type: sine, frequency: 0.5, amplitude: 0}\n";
+  const Scenario s = scenario(text);
+  const std::optional<LegSag> sag = leg_sag(s, plugin_info(s), std::vector<double>(4, 0.0));
+  ASSERT_TRUE(sag);
+  constexpr double kStiffness = 20 * 3.0 / 6;  // N m/rad
+  const double load = s.robot->mass * 9.81 / 4;
+  EXPECT_NEAR(sag->angle, load * 0.1 / kStiffness, 1e-12);
+  double yields = 0;  // the lever grows while it yields
+  for (int i = 0; i < 50; ++i) yields = load / kStiffness * 0.1 * (std::cos(yields) + std::sin(yields));
+  EXPECT_NEAR(std::abs(run(s).joint(0, "angle").back()), yields, 1e-3 * yields) << "the robot still settles";
+  const auto warned = [&](const std::vector<std::string>& sets) {
+    for (const Warning& one : setup_warnings(scenario(text, sets))) {
+      if (contains(one.text, "the legs yield")) return one.text;
+    }
+    return std::string();
+  };
+  EXPECT_EQ(
+      warned({}),
+      "the legs yield by up to 0.05 rad under the weight of the robot, first m0/at_a, and by more while feet are lifted; "
+      "expected at most 0.03 rad, so that feet clear the ground: Kp 150 V/rad with controller.period 0.002 s holds them to "
+      "0.0067 rad");
+  EXPECT_EQ(warned({"controller.Kp=150", "controller.period=0.002"}), "");
+  EXPECT_EQ(warned({"robot.base=fixed"}), "");
 }
 
 TEST(SetupWarnings, TellASlipOfUnits) {
