@@ -89,7 +89,8 @@ std::string table_name(const ::testing::TestParamInfo<const char*>& table) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, MessageTable,
-                         ::testing::Values("files.txt", "keys.txt", "modules.txt", "names.txt", "studies.txt", "yaml.txt"),
+                         ::testing::Values("files.txt", "keys.txt", "modules.txt", "names.txt", "robots.txt", "studies.txt",
+                                           "yaml.txt"),
                          table_name);
 
 }  // namespace
