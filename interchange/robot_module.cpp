@@ -210,9 +210,10 @@ RobotBodies bodies_in(const std::string& file, const ImportOptions& options, Pro
   const std::string text = without_comments(read_text(file));
   const std::vector<XmlTag> tags = xml_tags(text);
   if (tags.empty() || tags.front().name != "mujoco") return urdf_bodies(UrdfText(file), options, problems);
-  if (!options.srdf.empty())
+  if (!options.srdf.empty()) {
     throw InputError(SourceLocation{"--srdf"},
                      fmt::format("{} is MJCF, whose elements exclude name such pairs; expected URDF", file));
+  }
   MjcfText mjcf(file, options.meshes);
   return mjcf_bodies(mjcf, options, problems);
 }
