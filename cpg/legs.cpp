@@ -262,7 +262,7 @@ Legs::Way Legs::way_of(const std::array<double, kSteered>& speeds) const {
 }
 
 void Legs::describe(const RobotInfo& robot, const Way& way, double height) {
-  note_ = std::to_string(steps_.size()) + " legs:";
+  note_ = std::to_string(steps_.size()) + (steps_.size() == 1 ? " leg:" : " legs:");
   for (const Leg& leg : robot.legs) note_ += (leg.name == robot.legs.front().name ? " " : ", ") + leg.name;
   note_ += "; hips " + digits(height) + " m above the feet";
   for (std::size_t k = 0; k < kSteered; ++k) {
